@@ -225,7 +225,7 @@ def test_a_half_turn_is_asked_before_an_answer_is_called_close():
     instead = {"log_rotation": log_rotation}
     verdict = inprocess.verdicts(day, day.source, "3.3", instead=instead)["3.3"]
     assert (verdict.status, verdict.mistake) == ("wrong", "wrong-at-pi")
-    assert "not at exactly pi" in verdict.message
+    assert "not for exactly pi" in verdict.message
     assert "1e-08" in verdict.message
 
 

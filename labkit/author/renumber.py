@@ -19,14 +19,14 @@ TEXTS = (".py", ".md", ".toml")
 OUTPUTS = re.compile(r"<!-- \w+: .*?<!-- end -->", re.DOTALL)  # made anew
 
 
-class Moved(NamedTuple):
+class Renumbering(NamedTuple):
     """The result of a move."""
 
     files: list[tuple[Path, Path]]  # pairs of the old and the new path
     left: list[str]  # places that name it and were not touched: "file, line 3: text"
 
 
-def move(day: Day, number: int, folder: Path, name: str) -> Moved:
+def move(day: Day, number: int, folder: Path, name: str) -> Renumbering:
     """Give a day another number, in a week's folder; its week.toml is not written.
 
     Args:
@@ -55,7 +55,7 @@ def move(day: Day, number: int, folder: Path, name: str) -> Moved:
             to.write_text(new, "utf-8", newline="\n")
     _remember(folder / f"day{number}" / "day.toml", day, stem)
     left = list(_remaining_names(day, number, [to for _, to in pairs]))
-    return Moved(pairs, left)
+    return Renumbering(pairs, left)
 
 
 def _files_of(day: Day) -> list[Path]:

@@ -27,9 +27,9 @@ from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
 from labkit.check.slow import (
     Budget,
-    EnoughAsked,
     Functions,
     RunsOn,
+    TimeUsedUp,
     kits_functions,
     not_to_its_end,
     runs_on,
@@ -110,7 +110,7 @@ class Rehearsal(Lab):
             self._run.numbers[wanted.check, wanted.metric] = value
 
 
-class Rehearsed(NamedTuple):
+class LabRun(NamedTuple):
     """The result of a lab's run with a file's functions."""
 
     fault: str  # the first step that fails, "" where none did
@@ -134,7 +134,7 @@ def check_lab(
 
 def rehearse(
     day: Day, script: Path, sandbox: Sandbox, deadline: Deadline | None = None
-) -> Rehearsed:
+) -> LabRun:
     """Run the lab with a file's functions, each behind the sandbox's wall.
 
     Args:
@@ -144,7 +144,7 @@ def rehearse(
         deadline: of the submission, whose tasks were asked; None is one of its own.
     """
     if not day.source.is_file():
-        return Rehearsed("", {})
+        return LabRun("", {})
     lab = load_lab(day.source)
     run = _Run(day)
     whole = deadline or deadline_of(day)
@@ -163,7 +163,7 @@ def rehearse(
         ):
             try:
                 lab.main()
-            except EnoughAsked:
+            except TimeUsedUp:
                 unfinished = not_to_its_end(run.title, budget)
     except RunsOn:
         fault = runs_on(run.title, budget)
@@ -173,7 +173,7 @@ def rehearse(
         fault = f"it stops with {type(error).__name__}: {error}"
     if unfinished and whole.over:
         fault, unfinished = TOO_LONG, ""
-    return Rehearsed(fault, run.numbers, unfinished)
+    return LabRun(fault, run.numbers, unfinished)
 
 
 def behind_wall(
@@ -258,13 +258,13 @@ def _sent(arg: Any, robots: Iterable[Robot]) -> Any:
     """Return an argument as questions have it.
 
     Raises:
-        EnoughAsked: a robot that the session was not given.
+        TimeUsedUp: a robot that the session was not given.
     """
     if isinstance(arg, mujoco.MjModel):
         for robot in robots:
             if _same(robot.model, arg):
                 return robot
-        raise EnoughAsked
+        raise TimeUsedUp
     if isinstance(arg, list | tuple) and arg and all(map(_of_a_chain, arg)):
         return Chain(tuple(arg))
     return arg

@@ -42,7 +42,7 @@ class Entry(NamedTuple):
     says: str = ""  # the first sentence of what the checker said of it
 
 
-class Met(NamedTuple):
+class MetMistake(NamedTuple):
     """A mistake that was made."""
 
     task: str  # its id
@@ -134,7 +134,9 @@ def journal(root: Path = ROOT) -> list[Entry]:
     return found
 
 
-def mistakes_met(entries: Iterable[Entry], known: Mapping[str, str]) -> list[Met]:
+def mistakes_met(
+    entries: Iterable[Entry], known: Mapping[str, str]
+) -> list[MetMistake]:
     """Return every named mistake once per task, in the order they were met.
 
     Args:
@@ -158,7 +160,7 @@ def mistakes_met(entries: Iterable[Entry], known: Mapping[str, str]) -> list[Met
                 now = "still there"
             case _:
                 now = "not right yet"
-        found.append(Met(task, slug, now, says))
+        found.append(MetMistake(task, slug, now, says))
     return found
 
 

@@ -31,7 +31,7 @@ ASKED = (
 )  # fmt: skip
 
 
-class Counted(NamedTuple):
+class OwnCount(NamedTuple):
     """The number of the student's own functions, and of all functions."""
 
     own: int
@@ -49,7 +49,7 @@ class Counted(NamedTuple):
 
 def counted(
     asked: Mapping[int, Collection[str]], own: Mapping[int, Collection[str]]
-) -> Counted:
+) -> OwnCount:
     """Count the functions that are the student's own: those that pass the check.
 
     The capstone, the proof page and its card all count by this function. A function
@@ -61,7 +61,7 @@ def counted(
     """
     names = {(day, name) for day, some in asked.items() for name in some}
     passing = {(day, name) for day, some in own.items() for name in some}
-    return Counted(len(names & passing), len(names))
+    return OwnCount(len(names & passing), len(names))
 
 
 @dataclass

@@ -40,7 +40,7 @@ ENDLESS = 100.0
 Functions = Mapping[str, Callable[..., Any]]
 
 
-class EnoughAsked(Exception):  # noqa: N818 (it ends a run; nothing went wrong here)
+class TimeUsedUp(Exception):  # noqa: N818 (it ends a run; nothing went wrong here)
     """As many seconds went by as a lab's run may take."""
 
 
@@ -82,10 +82,10 @@ class Budget(Deadline):
         """Take a call.
 
         Raises:
-            EnoughAsked: no time is left.
+            TimeUsedUp: no time is left.
         """
         if self.over and not self._goes_on():
-            raise EnoughAsked
+            raise TimeUsedUp
         self._since = self.used
         self.calls[name] += 1
         self._last.pop(name, None)

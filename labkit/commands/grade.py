@@ -38,7 +38,7 @@ from typing import Any
 from labkit.base import cli, git, processes, store
 from labkit.base.text import count, visible
 from labkit.grade import engine, hunts, hunts_page, page
-from labkit.grade.classroom import Again, Classroom, pull, write_all
+from labkit.grade.classroom import Classroom, Regrading, pull, write_all
 from labkit.grade.course import Course, percent
 from labkit.grade.journal import Journal
 from labkit.grade.package import version
@@ -303,15 +303,15 @@ def kit_at(tag: str) -> Path:
     return folder
 
 
-def again_of(text: str | None) -> Again:
+def again_of(text: str | None) -> Regrading:
     """Return whom `--again` means: nobody without it, everybody where it stands alone.
 
     Args:
         text: None without it, "" where it stands alone, folders with commas between.
     """
     if text is None:
-        return Again()
-    return Again(folders=text.split(",")) if text else Again(everybody=True)
+        return Regrading()
+    return Regrading(folders=text.split(",")) if text else Regrading(everybody=True)
 
 
 def grade_days(

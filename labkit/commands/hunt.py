@@ -39,7 +39,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 if TYPE_CHECKING:
-    from labkit.hunt.verdict import Repaired
+    from labkit.hunt.verdict import Repair
 
 HOW = "A call, such as ad([0, 0, 1, 0, 0, 0]), is made; Enter alone runs all of it."
 SUSPECT = "Which function do you suspect? "
@@ -229,7 +229,7 @@ def judge(case: Case) -> int:
     return conclude(True, f"found in {asked}")
 
 
-def verdict_sentence(one: "Repaired") -> str:
+def verdict_sentence(one: "Repair") -> str:
     """Return what is said of a function that was written anew."""
     if not one.guilty:
         return "not it; it was right as it was."

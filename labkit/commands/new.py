@@ -56,7 +56,9 @@ def new_day(number: int, week: str, name: str) -> list[Path]:
     return [*begun, *written, sheet]
 
 
-def move_day(old: int, number: int, week: str = "", name: str = "") -> renumber.Moved:
+def move_day(
+    old: int, number: int, week: str = "", name: str = ""
+) -> renumber.Renumbering:
     """Give a day another number, and where asked for another week and name.
 
     Args:

@@ -10,9 +10,9 @@ from tqdm import tqdm
 from labkit.base.git import GitError
 from labkit.base.text import visible
 from labkit.grade import page, similar
-from labkit.grade.course import Course, Graded
+from labkit.grade.course import Course, GradedStudent
 from labkit.grade.engine import Engine, grade_all
-from labkit.grade.journal import Journal, Kept
+from labkit.grade.journal import Journal, StoredResult
 from labkit.grade.package import Package, collect
 from labkit.grade.pull import pull_all
 from labkit.grade.result import FAULT, Result, ungraded
@@ -28,7 +28,7 @@ from robo47.paths import shown
 
 
 @dataclass(frozen=True)
-class Again:
+class Regrading:
     """The students whose unchanged work is graded again; by default nobody."""
 
     everybody: bool = False
@@ -47,7 +47,7 @@ class Classroom:
     day: Day  # the day, read from the kit's manifest
     journal: Journal  # results so far
     _: KW_ONLY
-    again: Again = Again()
+    again: Regrading = Regrading()
     frozen: bool = False  # results of another version of the kit stay
     keep: str = "last"  # "last", or "best" of all results of a student
     # Additions to a student's error, by folder.
@@ -66,7 +66,7 @@ class Classroom:
         Raises:
             Robo47Error: no worker is left, or a file cannot be written.
         """
-        graded: dict[str, Graded] = {}
+        graded: dict[str, GradedStudent] = {}
         runs: dict[str, list[Runs]] = {}
         starter = starter_of(self.day)
         now = 0
@@ -114,8 +114,8 @@ class Classroom:
 
     def _graded(
         self, student: Student, package: Package, result: Result | FaultError
-    ) -> Graded:
-        given: Package | Kept = package
+    ) -> GradedStudent:
+        given: Package | StoredResult = package
         fault = isinstance(result, FaultError)
         if isinstance(result, FaultError):  # not kept, so that it is tried again
             result = ungraded(self.day, FAULT.format(visible(result, 200)))
@@ -126,7 +126,7 @@ class Classroom:
         minutes = None
         if given.committed is not None:
             minutes = (self.journal.reference - given.committed) // 60
-        return Graded(
+        return GradedStudent(
             student,
             result,
             commit=given.commit,
@@ -138,7 +138,10 @@ class Classroom:
         )
 
     def _course(
-        self, everybody: Sequence[Graded], runs: Mapping[str, list[Runs]], now: int
+        self,
+        everybody: Sequence[GradedStudent],
+        runs: Mapping[str, list[Runs]],
+        now: int,
     ) -> Course:
         kit = _runs_of_kit(self.day)
         alike = similar.like_the_kit(runs, kit, _runs_of_functions(self.day))

@@ -14,7 +14,7 @@ UNKNOWN = "unknown"
 
 
 @dataclass(frozen=True)
-class Graded:
+class GradedStudent:
     """One student with all that the table and the page show."""
 
     student: Student  # the student, read from the roster
@@ -66,7 +66,7 @@ class Graded:
         return minutes, -(-minutes // (24 * 60))
 
 
-def percent(*days: Graded) -> str:
+def percent(*days: GradedStudent) -> str:
     """Return the share of a student's tasks that pass, "87.5".
 
     A grade is "" where somebody's work could not be looked at: a learning platform
@@ -83,7 +83,7 @@ class Course:
     """A class on one day."""
 
     day: Day  # the day, read from the manifest
-    class_: Sequence[Graded]  # everybody, in the order to show them
+    class_: Sequence[GradedStudent]  # everybody, in the order to show them
     _: KW_ONLY
     alike: Sequence[Group] = ()  # similar submissions, by folder
     reference: int = 0  # the time to which commit times count, seconds since 1970
@@ -131,7 +131,7 @@ class Course:
         return roots
 
 
-def by_student(courses: Sequence[Course]) -> list[tuple[Graded, ...]]:
+def by_student(courses: Sequence[Course]) -> list[tuple[GradedStudent, ...]]:
     """Return the days of each student, in the roster's order."""
     return list(zip(*(course.class_ for course in courses), strict=True))
 

@@ -20,14 +20,14 @@ from typing import Any, NamedTuple
 from labkit.base.git import GitError, before, blob, files_of
 from labkit.base.text import count, visible
 from labkit.grade.engine import Engine, grade_package
-from labkit.grade.journal import Journal, Kept
+from labkit.grade.journal import Journal, StoredResult
 from labkit.grade.package import fingerprint
 from labkit.grade.result import FAULT
 from labkit.grade.roster import Student
 from labkit.handin.handin import LIMITS
 from labkit.hunt import tally
 from labkit.hunt.case import FILE, Case, draw, folder_of, parsed, script_of
-from labkit.hunt.verdict import Repaired, is_found, judged
+from labkit.hunt.verdict import Repair, is_found, judged
 from labkit.lesson.day import Day, find_day
 from labkit.log.rows import Row
 from labkit.log.scan import scan_file
@@ -166,7 +166,7 @@ class HuntJournal(Journal):
             raise ValueError("no result of a hunt")
         return dict(told)
 
-    def _note(self, folder: str, kept: Kept) -> None:
+    def _note(self, folder: str, kept: StoredResult) -> None:
         self._last[folder] = kept
 
 
@@ -246,7 +246,7 @@ def _answer(package: HuntPackage) -> dict[str, Any]:
 
 
 @lru_cache(1000)  # scripts that are alike are judged once in a process
-def _verdicts(hunt: Hunt, script: bytes, questions: int) -> list[Repaired]:
+def _verdicts(hunt: Hunt, script: bytes, questions: int) -> list[Repair]:
     return judged(hunt.case, script, questions, deadline_of(hunt.day))
 
 

@@ -25,7 +25,7 @@ _LATEST = 4_102_444_800  # the year 2100, in seconds since 1970
 _ODD = (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError)
 
 
-class Keepable(Protocol):
+class Storable(Protocol):
     """The fields of a package, of any kind, that a journal needs."""
 
     @property
@@ -49,7 +49,7 @@ class Keepable(Protocol):
         """Its time, seconds since 1970, or None."""
 
 
-class Kept(NamedTuple):
+class StoredResult(NamedTuple):
     """A result, and what of somebody's package and the kit it was given to."""
 
     package: str  # fingerprints
@@ -98,8 +98,8 @@ class Journal:
         self.deadline = False
         self.seed = secrets.randbits(32)
         self.odd = self.outdated = 0
-        self._last: dict[str, Kept] = {}  # the last result by folder
-        self._best: dict[str, Kept] = {}
+        self._last: dict[str, StoredResult] = {}  # the last result by folder
+        self._best: dict[str, StoredResult] = {}
         self._written: dict[str, Any] = {}  # the last header
         try:
             self._file = path.open("a+b")
@@ -126,7 +126,7 @@ class Journal:
         return {"kind": KIND, **about, "seed": self.seed, **since}
 
     def find(
-        self, folder: str, package: Keepable, *, frozen: bool = False
+        self, folder: str, package: Storable, *, frozen: bool = False
     ) -> Any | None:
         """Return a student's result, unless what they hand in, or the kit, has changed.
 
@@ -143,13 +143,13 @@ class Journal:
         self.outdated += 1
         return None
 
-    def best(self, folder: str) -> Kept:
+    def best(self, folder: str) -> StoredResult:
         """Return a student's best result of all that were kept, the last of equals."""
         return self._best[folder]
 
-    def keep(self, folder: str, package: Keepable, result: Any) -> None:
+    def keep(self, folder: str, package: Storable, result: Any) -> None:
         """Write a result and wait until the disk has it."""
-        kept = Kept(
+        kept = StoredResult(
             package=package.fingerprint,
             kit=package.kit,
             commit=package.commit,
@@ -160,7 +160,7 @@ class Journal:
         told = {**kept._asdict(), "result": self._as_json(result)}
         self._append({"day": package.day, "folder": folder, **told})
 
-    def _note(self, folder: str, kept: Kept) -> None:
+    def _note(self, folder: str, kept: StoredResult) -> None:
         self._last[folder] = kept
         rival = self._best.get(folder)
         at = kept.committed
@@ -234,7 +234,7 @@ class Journal:
         self.reference, self.seed = reference, seed
         self._written = self._head()
 
-    def _record(self, record: dict[str, Any]) -> Kept:
+    def _record(self, record: dict[str, Any]) -> StoredResult:
         words = {name: record[name] for name in ("package", "kit", "commit")}
         if not all(
             isinstance(word, str) for word in (record["folder"], *words.values())
@@ -243,7 +243,9 @@ class Journal:
         at = record["committed"]
         if record["day"] != self._day.number or type(at) not in (int, type(None)):
             raise ValueError(record["day"], at)
-        return Kept(**words, committed=at, result=self._from_json(record["result"]))
+        return StoredResult(
+            **words, committed=at, result=self._from_json(record["result"])
+        )
 
     def _as_json(self, result: Any) -> dict[str, Any]:
         """Return a result as it is written."""

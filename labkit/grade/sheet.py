@@ -17,7 +17,7 @@ from pathlib import Path
 
 from labkit.base import store
 from labkit.base.text import visible
-from labkit.grade.course import UNKNOWN, Course, Graded, by_student, percent
+from labkit.grade.course import UNKNOWN, Course, GradedStudent, by_student, percent
 from labkit.grade.result import Mark
 from labkit.grade.roster import Student
 from robo47.errors import Robo47Error
@@ -31,7 +31,7 @@ Cell = str | int | None
 _SEPARATORS = {"; ": " – ", ";": ",", "|": "¦"}
 
 
-def as_csv(class_: Sequence[Graded]) -> bytes:
+def as_csv(class_: Sequence[GradedStudent]) -> bytes:
     """Return the table of a day.
 
     Args:
@@ -67,7 +67,7 @@ def _csv(rows: Iterable[Iterable[Cell]]) -> bytes:
     return text.getvalue().encode("utf-8-sig")
 
 
-def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
+def nameless(class_: Sequence[GradedStudent], seed: int) -> list[GradedStudent]:
     """Return a class in an order and with names that say nothing of who it is.
 
     Args:
@@ -87,7 +87,7 @@ def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
     return sorted(found, key=lambda graded: graded.student.name)
 
 
-def _row(graded: Graded) -> dict[str, Cell]:
+def _row(graded: GradedStudent) -> dict[str, Cell]:
     result = graded.result
     mistake = graded.result.first_mistake or Mark("", "")
     minutes, days = graded.late_by
@@ -114,7 +114,9 @@ def _row(graded: Graded) -> dict[str, Cell]:
     }
 
 
-def _row_of_days(numbers: Sequence[int], class_: Sequence[Graded]) -> dict[str, Cell]:
+def _row_of_days(
+    numbers: Sequence[int], class_: Sequence[GradedStudent]
+) -> dict[str, Cell]:
     days = dict(zip(numbers, class_, strict=True))
     results = [one.result for one in class_]
     errors = [f"day {n}: {one.error}" for n, one in days.items() if one.error]

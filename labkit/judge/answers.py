@@ -76,9 +76,20 @@ def largest(a: Array, scale: float | Array = 1.0) -> float:
     return float(sizes[np.isfinite(sizes)].max(initial=0.0))
 
 
+def as_real(value: Any) -> Any:
+    """Return complex numbers as pairs of real ones, on the last axis; others as given.
+
+    A question with complex arguments tests whether a function passes them through.
+    """
+    array = np.asarray(value)
+    if array.dtype.kind != "c" or not array.ndim:
+        return value
+    return np.ascontiguousarray(array, dtype=np.complex128).view(np.float64)
+
+
 def as_one(some: Sequence[ArrayLike]) -> Array:
     """Return arrays as one, (n, ...); smaller ones are filled up with zeros."""
-    arrays = [np.asarray(one, dtype=np.float64) for one in some]
+    arrays = [np.asarray(as_real(one), dtype=np.float64) for one in some]
     sizes = zip(*(one.shape for one in arrays), strict=True)  # refuses other depths
     whole = np.zeros((len(arrays), *map(max, sizes)))
     for at, one in enumerate(arrays):
@@ -90,7 +101,7 @@ def as_one(some: Sequence[ArrayLike]) -> Array:
 def parts(answers: Any) -> Parts:
     """Return answers as a tuple of parts, also where there is one."""
     some = answers if isinstance(answers, tuple) else (answers,)
-    return tuple(np.asarray(part, dtype=np.float64) for part in some)
+    return tuple(np.asarray(as_real(part), dtype=np.float64) for part in some)
 
 
 def plain(some: Parts) -> Any:

@@ -15,6 +15,7 @@ import numpy as np
 from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import (
     MATCHES,
+    as_real,
     capitalised,
     gap,
     listed,
@@ -128,7 +129,7 @@ class Kind:
         """Return a right or a mistaken answer as numbers; None is NaN."""
         if value is None and self.none:
             return np.full([n or 1 for n in self.shape], np.nan)
-        return np.asarray(value, dtype=np.float64)
+        return np.asarray(as_real(value), dtype=np.float64)
 
     def sent(self, answer: Array) -> Any:
         """Return such numbers as the function returns them."""

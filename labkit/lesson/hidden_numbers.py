@@ -25,14 +25,14 @@ _HEADING = re.compile(r"(?m)^\d+\. ")
 _OF = re.compile(r" of (\d+)\b")
 
 
-class Hidden(NamedTuple):
+class HiddenNumber(NamedTuple):
     """A number that is still to be predicted."""
 
     value: float
     at: int  # the position in the output
 
 
-class Printed(NamedTuple):
+class PrintedNumber(NamedTuple):
     """A number in a line of the output."""
 
     start: int
@@ -77,7 +77,7 @@ class Output(io.StringIO):
         super().__init__()
         self.asked = frozenset(asked)
         self._missing = set(asked)
-        self._hidden: list[Hidden] = []
+        self._hidden: list[HiddenNumber] = []
         self._kept: set[str] = set()  # lines that say what is hidden
         self._before = sys.stdout, sys.breakpointhook
         self._holds = bool(asked)
@@ -91,7 +91,7 @@ class Output(io.StringIO):
     def hide(self, number: str, value: float, says: str) -> None:
         """Hide a number, before and after this line, and print a line in its place."""
         self._missing.discard(number)
-        self._hidden.append(Hidden(float(f"{abs(value):.12g}"), self.tell()))
+        self._hidden.append(HiddenNumber(float(f"{abs(value):.12g}"), self.tell()))
         self._kept.update(says.splitlines())
         print(says)
 
@@ -119,7 +119,7 @@ class Output(io.StringIO):
 
 def without(
     text: str,
-    hidden: Sequence[Hidden],
+    hidden: Sequence[HiddenNumber],
     kept: Collection[str] = (),
     *,
     every: bool = False,
@@ -160,7 +160,7 @@ def _hide(line: str, known: set[float], short: list[float], every: bool) -> str:
     """Return a line without the hidden numbers, and without those that tell one."""
     numbers = list(_numbers(line))
 
-    def is_of(one: Printed, value: float) -> bool:
+    def is_of(one: PrintedNumber, value: float) -> bool:
         return one.is_of(value) and not (one.bare and value in known)
 
     found = {
@@ -175,7 +175,7 @@ def _hide(line: str, known: set[float], short: list[float], every: bool) -> str:
     return line
 
 
-def _replaced(line: str, one: Printed) -> str:
+def _replaced(line: str, one: PrintedNumber) -> str:
     """Return a line with the word in the place of a number; columns stay in line."""
     text = line[: one.start].rstrip(" ")
     gap = one.start - len(text)
@@ -184,7 +184,7 @@ def _replaced(line: str, one: Printed) -> str:
     return text + (word if gap > 1 else " " * gap + WORD) + line[one.end :]
 
 
-def _numbers(line: str) -> Iterator[Printed]:
+def _numbers(line: str) -> Iterator[PrintedNumber]:
     """Return the numbers of a line; not the n of "k of n", nor the 0 of "q = 0"."""
     for found in _NUMBER.finditer(line):
         mantissa, decimals, exponent = found[1].replace(",", ""), found[2], found[3]
@@ -196,4 +196,4 @@ def _numbers(line: str) -> Iterator[Printed]:
         whole = _OF.match(line, found.end())
         part = value / int(whole[1]) if whole and int(whole[1]) else math.nan
         half = 0.5 * power * 10.0 ** -len(decimals or "")
-        yield Printed(*found.span(), value, half, digits, not decimals, part)
+        yield PrintedNumber(*found.span(), value, half, digits, not decimals, part)

@@ -29,6 +29,7 @@ from labkit.lesson.day import day_of
 from labkit.lesson.hidden_numbers import Output
 from labkit.lesson.metric import Metric
 from labkit.lesson.predictions import predictions, rows_asked, with_measured
+from labkit.lesson.training import training
 from labkit.lesson.writers import file_mark
 from robo47.paths import METRICS_CSV, shown
 
@@ -147,6 +148,10 @@ class Lab:
             yield
         except NotImplementedError as gap:
             print(cli.wrapped(f"to do: {gap}", "  "))
+
+    def training(self, title: str, steps: int) -> Iterator[int]:
+        """Yield the numbers of a training's steps, from 1, and show a bar meanwhile."""
+        return training(title, steps)
 
     def show(self, title: str, matrix: ArrayLike, decimals: int = 6) -> None:
         """Print a matrix (m, n) or a vector (n,) with aligned columns."""

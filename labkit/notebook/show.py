@@ -21,7 +21,7 @@ _MARK = {"passed": "✓", "to do": "·"}  # every other state has ✗
 _CELL = "style='text-align:left;vertical-align:top;padding:.2em .8em'"
 
 
-class Said:
+class Message:
     """Sentences and, optionally, more HTML."""
 
     def __init__(self, lines: Sequence[str], more: str = "") -> None:
@@ -45,7 +45,7 @@ class Said:
         return f"<div>{with_notebook_commands(paragraphs)}{self.more}</div>"
 
 
-class Checked:
+class CheckResult:
     """The verdict of a check."""
 
     def __init__(
@@ -76,7 +76,7 @@ class Checked:
         table = f"<table>{''.join(rows)}</table>"
         last = f"{report.done} of {report.total} done. Next: {report.next_step()}"
         return with_notebook_commands(
-            Said(said)._repr_html_() + table + Said([last])._repr_html_()
+            Message(said)._repr_html_() + table + Message([last])._repr_html_()
         )
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:

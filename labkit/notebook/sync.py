@@ -34,7 +34,7 @@ KEPT = 200  # texts that are remembered, per function
 
 
 @dataclass
-class Brought:
+class SyncResult:
     """The result of copying a notebook's functions."""
 
     written: list[str] = field(default_factory=list)  # taken from the notebook
@@ -57,7 +57,7 @@ class Brought:
 
 def bring(
     day: Day, cells: Cells, keep: str = "", reverted: Collection[str] = ()
-) -> Brought:
+) -> SyncResult:
     """Put the functions of a notebook into the day's file, and say what happened.
 
     Args:
@@ -94,7 +94,7 @@ def bring(
     for name, cell, _ in pairs:
         seen[name] = [*seen.get(name, []), _mark(cell)][-KEPT:]
     store.write(MEMORY, {**memory, str(day.number): seen}, clone)
-    return Brought(taken, newer)
+    return SyncResult(taken, newer)
 
 
 def _pairs(day: Day, script: str, cells: Cells) -> Iterator[tuple[str, str, str]]:
@@ -123,7 +123,7 @@ def _counts(cell: str, file: str, known: list[str], reverted: bool) -> str:
     return "both" if begun else "notebook"
 
 
-def bring_saved(day: Day) -> Brought:
+def bring_saved(day: Day) -> SyncResult:
     """Put the functions of the notebook in `work/` into the day's file, if it is newer.
 
     Raises:
@@ -133,12 +133,12 @@ def bring_saved(day: Day) -> Brought:
     try:
         status = path.stat()
         if day.work.is_file() and status.st_mtime_ns <= day.work.stat().st_mtime_ns:
-            return Brought()
+            return SyncResult()
         if status.st_size > MOST:
             raise ValueError(f"has more than {MOST // 1_000_000} MB: clear its outputs")
         cells = definitions(code_of(path.read_bytes()))
     except FileNotFoundError:
-        return Brought()
+        return SyncResult()
     except (OSError, ValueError) as error:
         raise Robo47Error(f"{shown(path)}: {error}") from None
     if not day.work.is_file():

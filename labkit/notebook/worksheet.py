@@ -13,7 +13,6 @@ from robo47.errors import Robo47Error
 _OPEN = re.compile(r"^(?P<indent> *)\*\((?P<asks>your [^)]*)\)\*\s*$")
 _HEADING = re.compile(r"^#+ (.+)$")
 _QUESTION = re.compile(r"^(\d+)\. (.*)$")
-_ROW = re.compile(r"^\|\s*([^|]+?)\s*\|\s*(\*\([^|]*\)\*|[^|]*?)\s*\|")
 
 
 @dataclass(frozen=True)

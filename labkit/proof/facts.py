@@ -6,7 +6,7 @@ from pathlib import Path
 
 from labkit.base.git import read_history
 from labkit.base.text import visible
-from labkit.check.lab_run import Rehearsed, rehearse
+from labkit.check.lab_run import LabRun, rehearse
 from labkit.check.memory import state_of
 from labkit.check.tasks import check_tasks, required_pass
 from labkit.grade.package import collect, unpack
@@ -71,7 +71,7 @@ def facts_of(
         begun = {task.id: "not begun" for task in day.tasks}
         return RunDay(day, begun, numbers, commit=package.commit, worksheet=sheet)
     states = {task.id: "the kit's own file" for task in day.tasks}
-    ran = Rehearsed("", {})
+    ran = LabRun("", {})
     if writers.kits.isdisjoint(marks_of(script)):
         whole = deadline_of(day)
         asked = (day, folder / day.script, sandbox)

@@ -14,7 +14,7 @@ import robo47
 from labkit.base import html
 from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
-from labkit.check.own_functions import Counted, counted
+from labkit.check.own_functions import OwnCount, counted
 from labkit.proof import sharing
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
@@ -138,7 +138,7 @@ def _tiles(proof: Proof) -> str:
     ])  # fmt: skip
 
 
-def _counted(proof: Proof) -> Counted:
+def _counted(proof: Proof) -> OwnCount:
     """Return how many of the week's functions are theirs."""
     tasks = {one.day.number: one.day.tasks for one in proof.days}
     asked = {day: [f for t in some for f in t.functions] for day, some in tasks.items()}

@@ -11,7 +11,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 from labkit.base import html
-from labkit.check.memory import Entry, Met
+from labkit.check.memory import Entry, MetMistake
 from labkit.lesson.day import Day
 from labkit.report.generic_verdicts import in_words
 from labkit.report.series import Series, limit_of, with_unit
@@ -110,7 +110,7 @@ def mistakes(facts: Sequence[OwnDay]) -> str:
     )
 
 
-def _mistake(day: Day, met: Met) -> str:
+def _mistake(day: Day, met: MetMistake) -> str:
     role, mark = _MOODS.get(met.now, ("none", "•"))
     name = escape(in_words(met.mistake))
     says = met.says and f"<br><span class=muted>{escape(met.says)}</span>"

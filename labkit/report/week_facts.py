@@ -12,7 +12,7 @@ from pathlib import Path
 from labkit.base import store
 from labkit.base.git import GitError, run
 from labkit.check import memory
-from labkit.check.memory import Met
+from labkit.check.memory import MetMistake
 from labkit.lesson.day import Day
 from labkit.lesson.writers import writers_of
 from labkit.report.series import Series
@@ -49,7 +49,7 @@ class OwnDay(DayFacts):
     # minutes from the first to the last commit, as git knows
     minutes: int | None = None
     hints: int = 0  # the number of hints that were asked for
-    met: Sequence[Met] = ()  # the named mistakes, in the order they were met
+    met: Sequence[MetMistake] = ()  # the named mistakes, in the order they were met
     borrowed: Sequence[str] = ()  # tasks whose functions are borrowed from the kit
 
     @property

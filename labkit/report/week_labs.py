@@ -16,7 +16,7 @@ from labkit.report.series import Series, series_of
 
 
 @dataclass(frozen=True)
-class Ran:
+class LabResult:
     """The result of a day's lab."""
 
     day: Day
@@ -36,7 +36,7 @@ def run_labs(
     environment: Mapping[str, str] | None = None,
     *,
     kits: bool = False,
-) -> Iterator[Ran]:
+) -> Iterator[LabResult]:
     """Run labs side by side, the student's own where they are begun.
 
     Args:
@@ -50,7 +50,7 @@ def run_labs(
     """
     given = os.environ if environment is None else environment
 
-    def run(day: Day) -> Ran:
+    def run(day: Day) -> LabResult:
         mine = day.work.is_file() and not kits
         command = [str(python), str(day.work if mine else day.source)]
         with tempfile.TemporaryDirectory(prefix="robo47-week-") as folder:
@@ -58,7 +58,7 @@ def run_labs(
             variables = {**given, "ROBO47_METRICS": str(log), "COLUMNS": "80"}
             done = processes.run(command, env=variables)
             rows = read_rows(log) if log.exists() else []
-        return Ran(day, mine, series_of(day, rows), _why(done))
+        return LabResult(day, mine, series_of(day, rows), _why(done))
 
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         yield from pool.map(run, days)

@@ -328,10 +328,10 @@ def _largest(value: Any) -> float:
     if value is None or isinstance(value, str):
         return 0.0
     try:
-        array = np.asarray(value, dtype=np.float64)
+        array = np.abs(np.asarray(value)).astype(np.float64)
     except (TypeError, ValueError):  # the items are of different types
         return max(map(_largest, value), default=0.0)
-    return float(np.abs(array[np.isfinite(array)]).max(initial=0))
+    return float(array[np.isfinite(array)].max(initial=0))
 
 
 def _texts(told: Any) -> tuple[str, ...]:

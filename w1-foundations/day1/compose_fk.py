@@ -47,17 +47,16 @@ row = Row(
     held_out=[
         HeldOut(
             "path-ignored",
-            "Your pose is correct for the whole arm, but your function ignores path. "
-            "For the path to link4 it still returns the pose of the end effector.",
+            "Your pose is correct for the whole arm, but your function ignores `path`. "
+            "For the path to link4, it still returns the pose of the end effector.",
             on(PANDA, PATH[:5], count=2),
             mistaken=lambda model, q, path: by_mujoco(model, q),
         ),
         HeldOut(
             "path-counted",
-            "Your pose is correct for PATH and for its beginnings, but your function "
-            "only counts the pairs of path, so for PATH[1:] it returns the pose of "
-            "link7. Take the names of the bodies and of the joints from the argument "
-            "path.",
+            "Your pose is correct for `PATH` and its prefixes, but your function uses "
+            "only the number of pairs in `path`, so for `PATH[1:]` it returns the pose "
+            "of link7. Take the body and joint names from the argument `path`.",
             on(PANDA, PATH[1:], count=2),
             mistaken=lambda model, q, path: fk(model, q, PATH[: len(path)]),
         ),
@@ -84,7 +83,8 @@ def stops_early(row, k, end):
     row.wrong("stops-early", says)(
         lambda model, q, path=PATH: fk(model, q, path[: k + 1])
     )
-    says = f"your chain stops at link{k} and omits the rotation of joint{k}"
+    says = f"your chain stops at link{k} and omits the rotation of joint{k}. It should "
+    says += f"end at {end}"
     row.wrong("stops-early", says)(
         lambda model, q, path=PATH: fk(model, q, path[:k]) @ link(model, path[k][0])
     )
@@ -99,10 +99,10 @@ for k in range(1, 8):
 
 @row.wrongs
 def _(model, q, path=PATH):
-    """home-whatever-q: your result does not depend on q, but is always the pose of the
+    """home-whatever-q: your code does not use `q` and always returns the pose for the
       ready configuration
-    ready-subtracted: your code subtracts the angles of the ready configuration from q,
-      but each joint should rotate by its entry of q
+    ready-subtracted: your code subtracts the angles of the ready configuration from
+      `q`, but each joint should rotate by its entry in `q`
     """
     angles = {
         "home-whatever-q": READY_Q,

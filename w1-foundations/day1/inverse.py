@@ -23,9 +23,9 @@ row = Row(
     held_out=[
         HeldOut(
             "general-inverse",
-            "Your numbers are correct, but they come from a matrix inverse. The task "
-            "asks for a result from R and t alone. What is special about the columns "
-            "of R?",
+            "Your result is correct, but your code uses a general matrix inverse. The "
+            "task asks for a result from R and t alone. What is special about the "
+            "columns of R?",
             _scaled,
             mistaken=np.linalg.inv,
             status="close",
@@ -44,21 +44,22 @@ def _(rng):
 @row.wrongs
 def _(T):
     """unchanged: your code returns T unchanged
-    T-transposed: your code transposes the whole 4x4 matrix. This inverts R, but it
-      moves the translation to the last row
-    t-only-negated: your rotation is correct, but your translation is -t. The inverse's
-      translation is expressed in the rotated frame, so -t has to be rotated first
-    t-turned-forwards: your rotation is correct, but your code multiplies -t by R
-      instead of the inverse of R
-    R-kept: your translation is correct, but the rotation is still R
-    R-kept-t-negated: your code keeps R and only negates t, which inverts only a pure
-      translation
-    R-kept-t-turned-forwards: your code does not invert R, neither in the rotation nor
-      in the translation
+    T-transposed: your code transposes the whole 4x4 matrix. This inverts R but moves
+      the translation to the last row
+    t-only-negated: your rotation is correct, but your translation is -t. The
+      translation of the inverse is expressed in the rotated frame, so rotate -t into
+      that frame
+    t-turned-forwards: your rotation is correct, but your code multiplies -t by R.
+      Multiply it by the inverse of R
+    R-kept: your translation is correct, but your code does not invert R
+    R-kept-t-negated: your code keeps R and only negates t, which is correct only for a
+      pure translation
+    R-kept-t-turned-forwards: your code uses R instead of its inverse, both in the
+      rotation and in the translation
     all-signs: your code negates every entry, but the negative of a transform is not its
       inverse
-    minus-R: your code only negates R and t, but -R is a reflection (det R = -1) and not
-      the inverse of R
+    minus-R: your code only negates R and t, but -R is a reflection (its determinant is
+      -1), not the inverse of R
     """
     R, t = split(T)
     return {
@@ -76,8 +77,8 @@ def _(T):
 
 @row.wrong
 def one_over_each_entry(T):
-    """your code replaces every entry by its reciprocal, but these reciprocals are not
-    the inverse of the matrix"""
+    """your code replaces every entry with its reciprocal, but the inverse of a matrix
+    does not consist of reciprocals"""
     with np.errstate(divide="ignore"):
         return 1.0 / T
 

@@ -32,7 +32,7 @@ ALIKE = [BACKWARDS, {"joints-left-out", "R-lost"}]
 TYPED_IN = HeldOut(
     "typed-in",
     "Your pose is correct for this Panda, but not for one with longer, rotated links. "
-    "Read every pos and quat, also those of link0, from the given model.",
+    "Read every `pos` and `quat`, including the values of link0, from the given model.",
     on(OTHER, count=2),
     of_close=False,  # `flange` says more of a nearly right one
 )
@@ -40,8 +40,8 @@ NO_INDEX = Slip(
     r"inhomogeneous|only (length-1|0-dimensional) arrays|sequence|ambiguous",
     r"\.qposadr\b(?!\s*\[)",
     "qposadr-is-an-array",
-    "model.joint(name).qposadr is an array of one number, so q[...] of it is an array "
-    "too. Use qposadr[0].",
+    "`model.joint(name).qposadr` is an array with one entry, so `q` indexed with it is "
+    "also an array. Use `qposadr[0]` as the index.",
 )  # fmt: skip
 
 
@@ -68,7 +68,8 @@ def measured(case: Case) -> tuple[str, ...]:
         Pose().apart(case.S[i], case.T[i])
         for i in (slice(1), slice(1, 2), slice(2, None))
     )
-    return (f"error at q = 0: {zero}; when ready: {ready}; elsewhere: up to {other}",)
+    known = f"error at q = 0: {zero}; in the ready configuration: {ready}"
+    return (f"{known}; elsewhere: up to {other}",)
 
 
 def flange(case: Case) -> Finding | None:
@@ -80,13 +81,15 @@ def flange(case: Case) -> Finding | None:
         again = case.T @ pose(right @ R_flange, np.zeros(3))
         return bool(difference(case.S, again).max() < 0.01 * off)
 
-    says = f"Close, but not equal: off by {off:.1e}."
+    says = f"Your result is close, but it is off by {off:.1e}."
     if any(ends_in(make(FLANGE_QUAT)) for make in UNNORMALISED):
         says += " The flange's quaternion in the file is rounded, so its norm is not "
-        return Finding("flange-not-normalised", f"{says}exactly 1: normalise it.")
+        says += "exactly 1. Normalise this quaternion."
+        return Finding("flange-not-normalised", says)
     if ends_in(se3.Rz(0.75 * np.pi)):
-        says += " You rotate the flange by exactly 135 degrees; in the file its "
-        return Finding("flange-turned-exactly", f"{says}quaternion has seven digits.")
+        says += " Your code rotates the flange by exactly 135 degrees, but the file "
+        says += "gives its quaternion to seven digits. Use this quaternion."
+        return Finding("flange-turned-exactly", says)
     return None
 
 

@@ -14,14 +14,14 @@ from .panda_chain import PATH, fk, link, product, steps, turn
 
 
 def in_order(model, q, path=PATH):
-    """joint-before-link: your code applies each joint's transform before the transform
-      of its link. It should come after it, because the link's offset leads to the joint
-    chain-reversed: your product is in the reverse order. Each further transform belongs
-      on the right of the product so far
-    links-on-the-left: your code multiplies the links' transforms on the left and the
-      joints' on the right. Both belong on the right
-    joints-on-the-left: your code multiplies the joints' transforms on the left and the
-      links' on the right. Both belong on the right
+    """joint-before-link: your code applies each joint's transform before the link's
+      transform. Apply the link's transform first, because its offset leads to the joint
+    chain-reversed: your product is in the reverse order. Multiply each new transform on
+      the right
+    links-on-the-left: your code multiplies the link transforms on the left and the
+      joint transforms on the right. Multiply both on the right
+    joints-on-the-left: your code multiplies the joint transforms on the left and the
+      link transforms on the right. Multiply both on the right
     multiplied-by-entries: your code multiplies the transforms entry by entry. Use the
       matrix product
     """
@@ -37,8 +37,7 @@ def in_order(model, q, path=PATH):
 
 
 def chain_reversed(model, q, path=PATH):
-    """your product is in the reverse order. Each further transform belongs on the right
-    of the product so far"""
+    """your product is in the reverse order. Multiply each new transform on the right"""
     return product(L @ J for L, J in steps(model, q, path[::-1]))
 
 
@@ -46,21 +45,22 @@ def chain_reversed(model, q, path=PATH):
 
 
 def on_each_other(model, q, path=PATH):
-    """last-step-in-the-world: your code adds the offset of attachment along the world's
+    """last-step-in-the-world: your code adds the offset of `attachment` along the world
       axes, but this offset is expressed in the frame of the previous body
-    last-step-on-the-left: your code multiplies the transform of attachment on the left,
-      so it moves the whole arm. Multiply it on the right
-    local-taken-for-world: your code uses the pos and quat of attachment as its pose in
-      the world, but pos and quat in the file are relative to the parent
-    offsets-summed: your rotation is correct, but your code adds the offsets as they are
-      in the file. Each offset is expressed in the rotated frame of its parent
-    point-with-w-0: your rotation is correct, but your code only rotates attachment's
-      offset and loses the translation before it. A point needs 1, not 0, as its fourth
-      entry
-    inertial-frames: your code uses ipos and iquat, which give the frame of a body's
-      inertia. Use pos and quat, which give the frame of the body
-    inertial-turns: your code uses iquat, the orientation of a body's inertia. Use quat,
-      the orientation of the body
+    last-step-on-the-left: your code multiplies the transform of `attachment` on the
+      left, which moves the whole arm. Multiply it on the right
+    local-taken-for-world: your code uses the `pos` and `quat` of `attachment` as its
+      pose in the world, but both are relative to the parent body
+    offsets-summed: your rotation is correct, but your code adds the offsets from the
+      file without rotating them. Each offset is expressed in the rotated frame of its
+      parent
+    point-with-w-0: your rotation is correct, but your code only rotates the offset of
+      `attachment` and omits the translation before it. A point needs 1, not 0, as its
+      fourth coordinate
+    inertial-frames: your code uses `ipos` and `iquat`, which describe a body's inertial
+      frame. Use `pos` and `quat`, which describe the body frame
+    inertial-turns: your code uses `iquat`, the orientation of a body's inertial frame.
+      Use `quat`, the orientation of the body frame
     """
     before = fk(model, q, path[:-1])
     last = link(model, path[-1][0])
@@ -94,8 +94,8 @@ def inertial(model, q, path, place):
 
 
 def offset_turned_too_late(model, q, path=PATH):
-    """your rotation is correct, but your code rotates each offset by the joint that
-    comes after it"""
+    """your rotation is correct, but your code updates the rotation before it adds the
+    link's offset. Add the offset first, rotated by the previous rotation"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         R = R @ L[:3, :3] @ J[:3, :3]
@@ -104,7 +104,7 @@ def offset_turned_too_late(model, q, path=PATH):
 
 
 def turns_in_reverse(model, q, path=PATH):
-    """your code multiplies the rotations in the wrong order. Each new rotation belongs
+    """your code multiplies the rotations in the wrong order. Multiply each new rotation
     on the right"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):

@@ -54,22 +54,23 @@ NOT_NORMALISED = (
     "rotation, but (1, 1, 0, 0), for example, has norm 1.41"
 )
 XYZW_AND_NOT_NORMALISED = (
-    "your code reads the quaternion as (x, y, z, w), although w comes first, and it "
-    "does not normalise it"
+    "your code reads the quaternion as (x, y, z, w), although w comes first, and does "
+    "not normalise the quaternion"
 )
 
 
 @row.wrongs(hidden={"short-ones-kept": "no quaternion there is short"})
 def _(quat):
-    """wxyz-read-as-xyzw: your code reads the quaternion as (x, y, z, w), but in
-      MuJoCo's files w comes first
+    """wxyz-read-as-xyzw: your code reads the quaternion as (x, y, z, w), but MuJoCo
+      uses the order (w, x, y, z)
     xyzw-rolled-wrongly: your code shifts the components in the wrong direction, so it
-      reads them as (y, z, w, x)
+      reads the quaternion as (y, z, w, x). MuJoCo uses the order (w, x, y, z)
     half-angle: your code rotates by half the angle. The component w is the cosine of
       half the angle, not of the angle
-    short-ones-kept: your code normalises the quaternion only if its norm is above 1,
-      but a shorter quaternion has to be normalised too
-    factor-two-missing: your code omits the factor 2 in front of the products
+    short-ones-kept: your code normalises the quaternion only if its norm is above 1.
+      Also normalise a quaternion with a smaller norm
+    factor-two-missing: your code omits the factor 2 in front of the products of
+      components
     """
     unturned = np.array([1.0, 0.0, 0.0, 0.0])
     read = {

@@ -48,8 +48,8 @@ row = Row(
     held_out=[
         HeldOut(
             "by-4x4-products",
-            "Your numbers are correct, but they come from 4x4 products. The docstring "
-            "asks for a result from R and t alone. Which of them acts on which?",
+            "Your result is correct, but your code multiplies 4x4 matrices. The "
+            "docstring asks for a result from R and t alone. Which R acts on which t?",
             _odd_bottom_rows,
             mistaken=by_4x4,
             status="close",
@@ -67,17 +67,17 @@ HALVES = {
     "turned-backwards": "your code multiplies the right factor's translation by the "
     "transpose of R. Multiply it by R itself",
     "wrong-vector-turned": "your code rotates the left factor's own translation "
-    "instead of the right factor's",
+    "instead of the right factor's translation",
     "wrong-rotation": "your code rotates the right factor's translation by its own R. "
     "Rotate it by the left factor's R",
     "both-turned": "your code rotates the translations of both factors. Do not rotate "
     "the translation of the left factor",
-    "subtracted": "your code subtracts one translation. Add the two",
+    "subtracted": "your code subtracts the left factor's translation. Add it",
     "summed-by-columns": "your code multiplies R and the right factor's translation "
     "entry by entry (R * t) and sums the columns. Use R @ t",
     "summed-by-entries": "your expression R * t multiplies entry by entry. Use R @ t",
-    "diagonal-only": "your code multiplies the translation by the diagonal of R only. "
-    "Use R @ t, which uses whole rows",
+    "diagonal-only": "your code multiplies the translation only by the diagonal of R. "
+    "Use R @ t, which uses all entries of R",
     "entries-of-4x4": "your code multiplies the two 4x4 matrices entry by entry "
     "(A * B). Use the matrix product",
 }
@@ -115,11 +115,11 @@ def _other_order(R_a, t_a, R_b, t_b):
 
 
 for which, two in (("first", (_other_order, right)), ("second", (right, _other_order))):
-    says = f"your {which} translation is computed for the other order of the factors"
+    says = f"your code computes the {which} translation with the two factors swapped"
     row.wrong("same-order-twice", says)(both(*two))
 row.wrong(
     "orders-swapped",
-    "your two translations are swapped: the first belongs to T_world_ee @ T_extra",
+    "your two translations are swapped. The first belongs to T_world_ee @ T_extra",
 )(both(_other_order))
 
 

@@ -21,15 +21,18 @@ def _(rng):
 
 @row.wrongs
 def _(T):
-    """block-top-right: your upper right block is [p] R, as for wrenches and for twists
-      (v; omega), but in this course omega comes first
-    no-lever-arm: your lower left block is 0, but v depends on omega if the origins
-      differ
+    """block-top-right: your block [p] R is in the upper right, as for wrenches and for
+      twists (v; omega). In this course omega comes first, so the block belongs in the
+      lower left
+    no-lever-arm: your lower left block is 0, but v depends on omega if the origins of
+      the two frames differ
     on-both-sides: both of your off-diagonal blocks are [p] R, but omega does not depend
-      on the origin, so the upper right block should be 0
-    last-block-zero: your lower blocks are [p] and 0. They should be [p] R and R
-    R-turned-back: your code transposes R in every block
-    transposed: your matrix is transposed, but the transpose maps wrenches
+      on v, so the upper right block should be 0
+    last-block-zero: your lower blocks are [p] and 0. They should be [p] R and R,
+      respectively
+    R-turned-back: your code transposes R in every block. Use R itself
+    transposed: your code returns the transpose of the adjoint, which maps wrenches
+      instead of twists
     """
     R = T[:3, :3]
     p = T[:3, 3]

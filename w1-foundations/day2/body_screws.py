@@ -20,19 +20,19 @@ def _(rng):
 
 @row.wrongs
 def _(screws, M):
-    """adjoint-of-M: your code uses the adjoint of M, which maps end-effector
-      coordinates to the world. The screws need the inverse
-    from-the-right: your adjoint is correct, but your code multiplies the screws as
-      rows, while the adjoint acts on columns
+    """adjoint-of-M: your code uses the adjoint of M, which maps twists from the
+      end-effector frame to the world frame. Use the adjoint of the inverse of M
+    from-the-right: your adjoint is correct, but your code computes screws @ Ad. The
+      adjoint acts on column vectors, and each screw is a row
     unchanged: your code returns the screws unchanged, still expressed in the world
       frame
     transposed-for-inverse: your code transposes Ad(M), but the inverse of an adjoint is
-      not its transpose. The same result follows if [p] R is in the upper right block of
-      the adjoint
-    no-lever-arm: your code only rotates both halves, because the lower left block of
-      the adjoint is 0. Is M.T used as the inverse of M?
-    t-only-negated: in the inverse of M, your translation is -t. It should be expressed
-      in the end-effector frame
+      not its transpose. An adjoint with [p] R in the upper right block gives the same
+      result
+    no-lever-arm: your code only rotates the two halves of each screw, because the lower
+      left block of your adjoint is 0. Does your code use M.T as the inverse of M?
+    t-only-negated: in the inverse of M, your translation is -t. Rotate -t into the
+      end-effector frame
     """
     R = M[:3, :3]
     t = M[:3, 3]

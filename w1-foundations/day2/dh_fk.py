@@ -41,24 +41,23 @@ ONE_TABLE = "the lab has one table"
 
 @row.wrongs(hidden={"flange-typed-in": ONE_TABLE, "table-not-used": ONE_TABLE})
 def _(table, q):
-    """flange-missing: your product lacks the eighth row, so the result is the pose of
-      link7 and not of the flange
+    """flange-missing: your product lacks the eighth row, so your code returns the pose
+      of link7 instead of the flange pose
     flange-turned: your code rotates the eighth row by the last joint's angle, but the
-      flange does not rotate
-    theta-one-row-late: your angles are one row late. The first row belongs to joint1,
-      so its angle is q[0]
-    theta-one-row-early: your angles are one row early. The first row belongs to joint1,
-      so its angle is q[0]
-    product-reversed: your links are in the reverse order. The link nearest to the base
-      belongs on the left
-    multiplied-by-entries: your code multiplies the links' matrices entry by entry. Use
+      flange does not rotate relative to link7
+    theta-one-row-late: your code uses each angle one row too late. The first row
+      belongs to joint1, so its angle is q[0]
+    theta-one-row-early: your code uses each angle one row too early. The first row
+      belongs to joint1, so its angle is q[0]
+    product-reversed: your matrices are in the reverse order. The matrix of the link
+      nearest to the base belongs on the left
+    multiplied-by-entries: your code multiplies the link matrices entry by entry. Use
       the matrix product
-    last-link-only: only the last row has an effect, because your loop overwrites the
-      product
-    flange-typed-in: your eighth row is always Franka's. Use the last row of the
-      argument
-    table-not-used: your code does not use the argument table, so the result is correct
-      for Franka's table only
+    last-link-only: your loop overwrites the product, so only the last row has an effect
+    flange-typed-in: your code always uses Franka's eighth row. Use the last row of the
+      argument `table`
+    table-not-used: your code does not use the argument `table`, so the result is
+      correct only for Franka's table
     """
     theta = [*q, 0.0]
     return {
@@ -80,8 +79,8 @@ row.of_argument("q", LEFT_OUT)
 for by in (1, -1):
     row.wrong(
         "alpha-of-the-neighbour",
-        "each row in your code uses the alpha of its neighbour. Tables of the standard "
-        "convention have alpha one row earlier, but this table does not",
+        "each row in your code uses the alpha of a neighbouring row. Tables in the "
+        "standard convention list alpha one row earlier, but this table does not",
     )(lambda table, q, by=by: dh_fk(np.c_[np.roll(table[:, 0], by), table[:, 1:]], q))
 for names, order in (
     ("a, alpha, d", [1, 0, 2]),

@@ -43,32 +43,32 @@ def rodrigues(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """turns-backwards: your rotation has the wrong sense, because the term with the
-      sine has the wrong sign
-    minus-square: your code subtracts the term with K K, so the matrix is not
-      orthonormal
-    square-missing: your code omits the term with K K. Without it, I + sin(theta) K is a
-      rotation to first order only
-    sine-term-missing: your code omits the term with K, so the rotations by theta and
-      -theta are equal
+    """turns-backwards: your rotation is in the wrong direction, because the sine term
+      has the wrong sign
+    minus-square: your code subtracts the K K term, so the matrix is not orthonormal.
+      Add this term
+    square-missing: your code omits the K K term. Without this term, I + sin(theta) K is
+      a rotation only to first order
+    sine-term-missing: your code omits the K term, so the rotations by theta and -theta
+      are equal
     identity-missing: your code omits the identity, but a rotation by 0 should be the
       identity
     cosine-for-one-minus-cosine: your factor of K K is the cosine, but this factor
       should be 0 at theta = 0
     one-minus-sine: your factor of K K is 1 minus the sine, but this factor should be 0
       at theta = 0
-    sin-and-cos-swapped: the sine and the cosine are swapped, so your matrix is not the
-      identity at theta = 0
-    coefficients-swapped: your two factors are swapped. The sine belongs to K, and 1 -
-      cos belongs to K K
-    first-order-only: your series ends after I + theta K, which is accurate for small
-      angles only
-    second-order-only: your series ends after the term with theta squared, but the
-      series has infinitely many terms
-    cosine-before-identity: your code multiplies the identity by cos. This factor
+    sin-and-cos-swapped: your code swaps the sine and the cosine, so the matrix is not
+      the identity at theta = 0
+    coefficients-swapped: your code swaps the factors of K and K K. The sine belongs to
+      K, and 1 - cos belongs to K K
+    first-order-only: your series ends after I + theta K, which is accurate only for
+      small angles
+    second-order-only: your series ends after the theta^2 term, but the series has
+      infinitely many terms
+    cosine-before-identity: your code multiplies the identity by the cosine. This factor
       belongs to the form with axis axis^T, not to the form with K K
-    half-angle-not-squared: your factor of K K is 2 sin(theta / 2), but 1 - cos is twice
-      the square of that sine
+    half-angle-not-squared: your factor of K K is 2 sin(theta / 2). It should be 1 -
+      cos, which equals 2 sin(theta / 2)^2
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -91,15 +91,15 @@ def _(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """exp-by-entries: your code uses np.exp, which acts on each entry, but the
-      exponential of a matrix is a series of matrix products
-    bracket-of-a-dyad: your last term is (1 - cos) axis axis^T. With this term the
+    """exp-by-entries: your code uses np.exp, which acts on each entry, but the matrix
+      exponential is a series of matrix products
+    bracket-of-a-dyad: your last term is (1 - cos) axis axis^T. With this term, the
       identity needs the factor cos
-    dyad-without-factor: your code omits the factor 1 - cos of axis axis^T, so the
-      matrix is not the identity at theta = 0
+    dyad-without-factor: your code omits the factor 1 - cos in front of axis axis^T, so
+      the matrix is not the identity at theta = 0
     dyad-missing: your code omits the term (1 - cos) axis axis^T, so the rotation moves
       its own axis
-    always-about-z: your code rotates about z for every axis. Use the argument
+    always-about-z: your code rotates about z for every axis. Use the argument `axis`
     """
     K = skew(axis)
     dyad = np.outer(axis, axis)

@@ -72,10 +72,11 @@ def travelled(S, theta, one, first, second):
 def _(S, theta):
     """twist-order: your code reads the halves as (v; omega), but omega comes first
     hinge-at-the-origin-forgotten: a screw with v = 0 causes no motion in your code, but
-      such a screw is a rotation about a line through the origin
-    turns-backwards: your motion has the wrong sense, as for -theta
-    theta-wrapped: your code wraps theta to the range from -pi to pi, but the
-      translation along the axis is not periodic
+      such a screw represents a rotation about a line through the origin
+    turns-backwards: your motion is in the wrong direction. It equals the motion for
+      -theta
+    theta-wrapped: your code wraps theta to [-pi, pi], but the translation along the
+      axis is not periodic
     """
     motions = {
         "twist-order": (np.roll(S, 3), theta),
@@ -88,24 +89,22 @@ def _(S, theta):
 
 @row.wrongs
 def _(S, theta):
-    """identity-for-theta: your rotation is correct, but your first term of the
-      translation is v. At theta = 0 it should be 0
-    sine-for-theta: your rotation is correct, but your first term of the translation is
-      sin(theta) v. A pure translation should be by theta v
-    exp-coefficients-swapped: your rotation is correct, but the two factors of the
-      translation are swapped
+    """identity-for-theta: your rotation is correct, but the first term of your
+      translation is v. The translation should be 0 at theta = 0
+    sine-for-theta: your rotation is correct, but the first term of your translation is
+      sin(theta) v. For a pure translation it should be theta v
+    exp-coefficients-swapped: your rotation is correct, but in the translation your code
+      swaps the factors of K and K K
     as-in-the-rotation: your rotation is correct, but your translation has the factors
-      of the rotation, sin and 1 - cos. It needs their integrals
-    travel-sign-of-K: your rotation is correct, but the term with K of the translation
+      of the rotation, sin and 1 - cos. It needs the integrals of these factors
+    travel-sign-of-K: your rotation is correct, but the K term of your translation has
+      the wrong sign
+    travel-sign-of-KK: your rotation is correct, but the K K term of your translation
       has the wrong sign
-    travel-sign-of-KK: your rotation is correct, but the term with K K of the
-      translation has the wrong sign
-    travel-without-K: your rotation is correct, but the term with K of the translation
-      is missing
-    travel-without-KK: your rotation is correct, but the term with K K of the
-      translation is missing
-    travel-K-for-KK: your rotation is correct, but the last term of your translation has
-      K instead of K K
+    travel-without-K: your rotation is correct, but your translation lacks the K term
+    travel-without-KK: your rotation is correct, but your translation lacks the K K term
+    travel-K-for-KK: your rotation is correct, but the last term of your translation
+      contains K instead of K K
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -132,22 +131,23 @@ def _(S, theta):
       velocity rotates during the motion, so it has to be integrated
     travel-on-a-line: your rotation is correct, but your translation is theta v, along a
       straight line, while the path of a screw motion is curved
-    travel-is-v: your rotation is correct, but the translation is v for every theta
-    travel-turned: your rotation is correct, but the translation is multiplied by R as
-      well
-    travel-over-theta: your rotation is correct, but the translation is divided by theta
+    travel-is-v: your rotation is correct, but your translation is v for every theta. It
+      should be 0 at theta = 0
+    travel-turned: your rotation is correct, but your code also multiplies the
+      translation by R
+    travel-over-theta: your rotation is correct, but your code divides the translation
+      by theta
     moment-used-as-point: your code uses v as a point on the axis, but v is the velocity
-      of the origin
-    pitch-forgotten: if omega is not 0, your code omits the part of the translation
-      along the axis
-    pitch-without-theta: if omega is not 0, your code does not multiply the part of the
-      translation along the axis by theta
-    hinges-only: for every screw, your code omits the part of the translation along the
-      axis
-    sign-of-the-point: your rotation is correct, but the point on your axis has the
-      wrong sign. The point is omega x v, and the translation multiplies it by I - R
+      of the point at the origin
+    pitch-forgotten: if omega is not 0, your code omits the translation along the axis
+    pitch-without-theta: if omega is not 0, your code does not multiply the translation
+      along the axis by theta
+    hinges-only: your code omits the translation along the axis for every screw
+    sign-of-the-point: your rotation is correct, but your point on the axis has the
+      wrong sign. The point is omega x v, and I - R times this point gives the
+      translation
     slide-forgotten: a screw with omega = 0 causes no motion in your code, but such a
-      screw is a pure translation
+      screw represents a pure translation
     slide-without-theta: in your code, a screw with omega = 0 translates by v. It should
       translate by theta v
     """
@@ -178,8 +178,8 @@ def _(S, theta):
 
 @row.wrong
 def exp_by_entries(S, theta):
-    """your code uses np.exp, which acts on each entry, but the exponential of a matrix
-    is a series of matrix products"""
+    """your code uses np.exp, which acts on each entry, but the matrix exponential is a
+    series of matrix products"""
     bracket = np.zeros((4, 4))
     bracket[:3, :3] = skew(S[:3])
     bracket[:3, 3] = S[3:]

@@ -17,9 +17,9 @@ either_form(row, body)
 
 @row.wrongs
 def _(body_screws, M, q):
-    """M-last: your product has M to the right of the exponentials, or it transforms the
-      screws again. The exponentials of screws in the end-effector frame multiply M on
-      the right
+    """M-last: your product has M to the right of the exponentials, or your code
+      transforms the screws a second time. For screws in the end-effector frame, M
+      belongs on the left
     motions-on-the-left: your code multiplies each exponential on the left. The screws
       are expressed in the end-effector frame, so each exponential belongs on the right
     """

@@ -16,12 +16,12 @@ either_form(row, space)
 
 @row.wrongs
 def _(screws, M, q):
-    """M-first: your product has M to the left of the exponentials. The screws are
-      expressed in the world frame, so their exponentials multiply M on the left
-    M-only-added: your code adds the translation of M and omits its rotation. Multiply
-      by M
+    """M-first: your product has M to the left of the exponentials. For screws in the
+      world frame, M belongs on the right
+    M-only-added: your code adds only the translation of M. Multiply by M instead, which
+      also contains a rotation
     space-screws-in-body-form: your code transforms the screws to the end-effector
-      frame, but its product is the one for screws in the world frame
+      frame, but its product needs screws in the world frame. Use the screws unchanged
     """
     added = np.zeros((4, 4))
     added[:3, 3] = M[:3, 3]
@@ -35,8 +35,8 @@ def _(screws, M, q):
 
 @row.wrong
 def screws_moved_along(screws, M, q):
-    """your code transforms each screw by the joints before it. The product already
-    includes these motions, so use the screws at q = 0"""
+    """your code transforms each screw by the motions of the joints before it. The
+    product already includes these motions, so use the screws at q = 0"""
     T = np.eye(4)
     for S, theta in zip(screws, q, strict=True):
         T = T @ motion(adjoint(T) @ S, theta)

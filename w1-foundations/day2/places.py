@@ -147,11 +147,12 @@ def _one_at_a_time(case: Case) -> Finding | None:
         return None
     if not off:
         where = (
-            "If one joint moves at a time, your pose is correct, so look at the "
+            "If only one joint moves at a time, your pose is correct, so look at the "
             "product of the exponentials, for example at their order."
         )
     else:
-        where = f"If one joint moves at a time, your pose is wrong for {_these(off)}."
+        where = "If only one joint moves at a time, your pose is wrong for "
+        where += f"{_these(off)}."
     found = Pose().what_is_wrong(case.S, case.T)
     return Finding(found.slug, f"{found.message} {where}")
 

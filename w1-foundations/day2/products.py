@@ -70,8 +70,8 @@ def either_form(row, form):
 def _in_the_product(row, form):
     @row.wrongs
     def _(screws, M, q):
-        """product-reversed: your exponentials are in the reverse order. The joint
-          nearest to the base belongs on the left
+        """product-reversed: your exponentials are in the reverse order. The exponential
+          of the joint nearest to the base belongs on the left
         M-twice: your product contains M on both sides of the exponentials. It should
           contain M only once
         M-in-the-loop: your code multiplies by M inside the loop, so the product
@@ -94,8 +94,8 @@ def _in_the_product(row, form):
 
     @row.wrong
     def exponentials_summed(screws, M, q):
-        """your code adds the twists and takes one exponential, but e^A e^B is e^(A + B)
-        only if A and B commute"""
+        """your code adds the twists and computes one exponential of the sum, but e^A
+        e^B is e^(A + B) only if A and B commute"""
         V = q @ screws
         size = np.linalg.norm(V[:3]) or 1.0
         return with_M(form, motion(V / size, size), M)
@@ -104,14 +104,14 @@ def _in_the_product(row, form):
 def _in_M(row, form):
     @row.wrongs(hidden={"M-turned-back": "the Panda's M is symmetric"})
     def _(screws, M, q):
-        """M-forgotten: your product lacks M, but the motions act on the pose of the end
-          effector at q = 0
+        """M-forgotten: your product lacks M. The exponentials should act on M, the
+          end-effector pose at q = 0
         M-inverted: your code inverts M, but M itself maps end-effector coordinates to
-          the world
+          world coordinates
         M-twice: your product contains M twice. It should contain M only once
         M-rotation-missing: your code uses only the translation of M and omits its
           rotation
-        M-turned-back: your code transposes the rotation of M
+        M-turned-back: your code transposes the rotation of M. Use M unchanged
         """
         used = {
             "M-forgotten": np.eye(4),

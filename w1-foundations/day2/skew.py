@@ -20,9 +20,10 @@ def _(rng):
 
 @row.wrongs
 def _(w):
-    """p-cross-w: your code reverses every sign, so it returns the transpose of the
-      matrix, which computes p x w
-    no-minus: your code sets every sign to plus, but the matrix should be antisymmetric
+    """p-cross-w: your code reverses every sign, so it returns the transpose, which
+      computes p x w instead of w x p
+    no-minus: your code makes every sign positive, but the matrix should be
+      antisymmetric
     outer-product: your code returns the outer product w w^T, which projects onto w
       instead of computing w x p
     on-the-diagonal: your code puts the vector on the diagonal, but the diagonal of an
@@ -40,7 +41,7 @@ def _(w):
 for letter, signs in FLIPPED.items():
     row.wrong(
         "pair-of-signs",
-        f"your two entries that contain w_{letter} have the wrong sign",
+        f"your two entries that contain w_{letter} have the wrong signs",
     )(lambda w, signs=signs: skew(w * signs))
 for sign, more in SIGNS:
     for letters, order in SWAPPED.items():
@@ -55,8 +56,8 @@ for half, filled, empty in (
 ):
     row.wrong(
         "half-empty",
-        f"your code fills only the {filled} half. The {empty} half should be its "
-        f"negative",
+        f"your code fills only the {filled} half. The {empty} half should contain the "
+        f"mirrored entries with the opposite sign",
     )(lambda w, half=half: half(skew(w)))
 
 

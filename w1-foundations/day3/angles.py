@@ -39,20 +39,20 @@ def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
         return Finding(
             "sign-near-pi",
             f"{says} The axis is correct, but its sign is not. R - R^T is small "
-            "there, but it still gives the sign.",
+            "there, but it still determines the sign.",
         )
     if one_of_two[some].max() > OFF and _alike(np.abs(S[some]), np.abs(T[some])):
         return Finding(
             "signs-near-pi",
             f"{says} The entries are correct except for their signs, which a "
-            "square root of the diagonal loses. Which column of R + R^T has them?",
+            "square root of the diagonal loses. Which column of R + R^T contains them?",
         )
     if found := _set_to_pi(S, T, some):
         return found
     return Finding(
         "wrong-near-pi",
-        f"{says} R - R^T is nearly 0 there. Does your code divide it by the sine, "
-        "which amplifies its rounding errors?",
+        f"{says} R - R^T is nearly 0 there. Does your code divide it by the sine? "
+        "This division amplifies the rounding errors.",
     )
 
 
@@ -68,7 +68,7 @@ def _set_to_pi(S: Array, T: Array, some: np.ndarray) -> Finding | None:
     return Finding(
         "pi-for-the-angle",
         f"Your angle is pi where it should be {least:.1e} rad smaller. The sine is "
-        "small there, but not 0, so atan2 gives the angle.",
+        "small there, but not 0, so atan2 still gives the angle.",
     )
 
 
@@ -79,7 +79,7 @@ def _zero_near_0(S: Array, T: Array, some: np.ndarray) -> Finding | None:
     return Finding(
         "zero-for-small-angles",
         f"Your result is 0 for a rotation by {angle:.0e} rad, so a threshold is too "
-        f"large. What is the result there without a division?",
+        f"large. Which formula for small angles needs no division?",
     )
 
 
@@ -93,14 +93,14 @@ def _everywhere(
         return Finding(
             "sign-of-the-axis",
             f"Your result has the wrong sign for {k} of {n} rotations. An axis has "
-            f"two directions, and R - R^T gives the correct one.",
+            f"two directions, and R - R^T determines the correct direction.",
         )
     other_way = T[off] * (1.0 - 2.0 * np.pi / angle[off, None])
     if difference(S[off], other_way).max() < OFF:
         return Finding(
             "angle-over-pi",
             f"Your angle is more than pi for {k} of {n} rotations. The quaternions q "
-            f"and -q represent the same rotation, so use the one with w > 0.",
+            f"and -q represent the same rotation, so use the quaternion with w > 0.",
         )
     least = angle[off].min()
     if angle[angle < least].max(initial=0.0) < 2.0:
@@ -139,6 +139,6 @@ def _as_an_arccosine(S: Array, T: Array, off: np.ndarray) -> Finding | None:
     return Finding(
         "arccosine",
         f"Your result is close, but the angle is off by {apart:.1e} near 0 or pi. An "
-        f"arccosine loses half of the digits there. Which function uses the sine and "
-        f"the cosine?",
+        f"arccosine loses half of the digits there. Which function uses both the sine "
+        f"and the cosine?",
     )

@@ -23,19 +23,18 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p, F):
-    """at-the-origin: your code uses J_space^T, which belongs to a wrench about the
-      world's origin, but the given wrench is about p
+    """at-the-origin: your code uses J_space^T, which requires the moment about the
+      world origin, but the given moment is about p
     what-balances-it: your sign is correct for a wrench that acts on the hand, but F is
-      the wrench that the hand exerts. The power of the motors should equal the power of
-      F
-    pseudo-inverse: your result is J^+ F, which does not conserve power. Write down the
-      power of the motors and the power of the hand
+      the wrench that the hand exerts. The motor power should equal the power of F
+    pseudo-inverse: your code returns J^+ F, which does not conserve power. Write down
+      the motor power and the power of F at the hand
     moment-forgotten: your code omits the moment, whose power is moment . omega
     force-forgotten: your code omits the force, whose power is force . v
     arm-the-wrong-way: your moment of the force about the origin is f x p. It should be
       p x f
-    arm-twice: your code adds p x f to the moment although the Jacobian already belongs
-      to p. Use only one of the two => both
+    arm-twice: your code adds p x f to the moment, but the Jacobian already belongs to
+      the point p. Use only one of these two conversions => both
     """
     J = site_jacobian(J_space, p)
     moment = F[:3]

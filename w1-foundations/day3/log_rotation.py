@@ -23,8 +23,9 @@ def _half_turns(rng):
 
 HALF_TURN = HeldOut(
     "wrong-at-pi",
-    "Your function is correct below pi, but not at exactly pi. There R - R^T is 0 and "
-    "gives neither the axis nor its sign. The docstring defines the sign.",
+    "Your function is correct for angles below pi, but not for exactly pi. There "
+    "R - R^T is 0 and determines neither the axis nor its sign. The docstring defines "
+    "the sign.",
     _half_turns,
 )
 row = Row(
@@ -138,14 +139,14 @@ def _(R):
     quaternion-vector-part: your vector is the vector part of the quaternion, whose norm
       is sin(angle / 2). The norm should be the angle
     twice-the-quaternion-part: your vector is twice the vector part of the quaternion,
-      which is accurate for small angles only
+      which is accurate only for small angles
     axis-only: your vector is the unit axis. Its norm should be the angle
-    arcsine: your angle is an arcsine, which cannot distinguish 100 degrees from 80. Use
-      the trace as well
+    arcsine: your code computes the angle with an arcsine, which cannot distinguish 100
+      degrees from 80 degrees. Use the trace as well
     half-the-angle: the norm of your vector is half the angle, as in a quaternion
     in-degrees: your angle is in degrees. It should be in radians
-    roll-pitch-yaw: your result is roll, pitch and yaw, the angles of three rotations,
-      but the rotation vector belongs to one rotation
+    roll-pitch-yaw: your code returns roll, pitch and yaw, the angles of three
+      successive rotations, but a rotation vector describes a single rotation
     """
     q = se3.R_to_quat(R)
     a, sine, _ = parts(R)
@@ -182,9 +183,10 @@ def _(R):
 def _(R):
     """textbook-formula: your formula theta / (2 sin theta) times R - R^T is 0 / 0 for
       the identity, and near pi it divides rounding errors by nearly 0
-    nan-at-0: your result for the identity is NaN, because the sine is 0 there
+    nan-at-0: your result for the identity is NaN, because your code divides by the
+      sine, which is 0 there
     arccosine-beyond-1: your result is NaN where rounding makes (trace - 1) / 2 larger
-      than 1 or smaller than -1. Use atan2, which has no such limit
+      than 1 or smaller than -1. Use atan2, which accepts all values
     """
     angle = np.arccos(cosine(R))
     no_turn = cosine(R) > 0 and not vee(R).any()
@@ -204,8 +206,8 @@ def from_column(R, k):
 for k, (which, missing) in enumerate((("first", "x"), ("second", "y"), ("last", "z"))):
     row.wrong(
         "fixed-column",
-        f"near pi your code always takes the axis from the {which} column, which is 0 "
-        f"if the axis has no {missing} component. Use the largest column",
+        f"near pi your code always takes the axis from the {which} column. This column "
+        f"is 0 if the axis has no {missing} component. Use the largest column",
         hidden="its half turn is about y" if missing == "y" else "",
     )(lambda R, k=k: from_column(R, k))
 
@@ -283,8 +285,8 @@ def _(R):
 
 @row.wrong
 def two_arguments_exchanged(R):
-    """your angle is pi minus the correct angle. Either the two arguments of the
-    arctangent are swapped, or one of them has the wrong sign"""
+    """your angle is pi minus the correct angle, because the cosine (the second argument
+    of the arctangent) has the wrong sign"""
     w = log_rotation(R)
     angle = np.linalg.norm(w)
     return (np.pi - angle) * w / angle if angle > 0 else w

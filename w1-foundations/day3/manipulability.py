@@ -39,18 +39,19 @@ def values(J):
 
 @row.wrongs
 def _(J):
-    """no-square-root: your result is det(J J^T), without the square root
+    """no-square-root: your code returns det(J J^T) without the square root
     other-product: your code uses J^T J, which is 7x7 and always singular. Use J J^T
-    largest-singular-value: your result is the largest singular value, the norm of J. It
-      should be the product of all six
-    trace: your result comes from the trace, the sum of the eigenvalues. Use the
-      determinant, which is their product
-    inverse-condition: your result is the smallest singular value divided by the
-      largest, which is another measure
-    square-part: your result is the determinant of the first six columns. Use all seven
+    largest-singular-value: your code returns the largest singular value, the norm of J.
+      The result should be the product of all six singular values
+    trace: your code uses the trace of J J^T, the sum of the eigenvalues. Use the
+      determinant, which is the product of the eigenvalues
+    inverse-condition: your code returns the smallest singular value divided by the
+      largest. The result should be the product of all singular values
+    square-part: your code returns the determinant of the first six columns. Use all
+      seven columns
     position-only: your code uses only the three v rows of J. Use all six rows
-    zeros-left-out: your code omits singular values that are 0 from the product, but
-      with one of them the product is 0
+    zeros-left-out: your code omits singular values that are 0 from the product, but the
+      product should be 0 if at least one singular value is 0
     """
     JJ = J @ J.T
     s = values(J)
@@ -69,8 +70,8 @@ def _(J):
 for determinant in (np.linalg.det, lambda A: np.prod(np.linalg.eigvalsh(A))):
     row.wrong(
         "nan-at-a-singularity",
-        "your result is NaN for some singular J, because rounding makes the number "
-        "under the root negative. Clamp it at 0",
+        "your result is NaN for some singular J, because rounding makes det(J J^T) "
+        "slightly negative. Clamp the determinant at 0 before the square root",
         hidden="rounding at q = 0 differs",
     )(lambda J, determinant=determinant: np.sqrt(determinant(J @ J.T)))
 

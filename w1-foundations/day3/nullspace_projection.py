@@ -26,7 +26,7 @@ def what_the_hand_feels(case: Case) -> Finding | None:
         return Finding(
             "felt",
             f"The hand moves in {k} of {len(S)} calls. J times your result should be "
-            f"0, but it has entries of up to {felt.max():.2g}.",
+            f"0, but the largest entry of this product is {felt.max():.2g}.",
         )
     i = int(np.argmax(difference(S, T)))
     return Finding(
@@ -59,16 +59,16 @@ def _(rng):
 def _(J, dq):
     """transpose-for-pseudo-inverse: your code uses J^T instead of J^+, but I - J^T J is
       not a projection, so the hand moves
-    felt-part: your result is J^+ J dq, the part of dq that moves the hand. Return the
-      other part
+    felt-part: your code returns J^+ J dq, the part of dq that moves the hand. Return
+      the remaining part of dq
     unchanged: your code returns dq unchanged
     added: your code adds the part that moves the hand. It should subtract this part
-    nothing-left: your result is 0, but seven joints always have a motion that does not
-      move the hand
-    normalised: your code normalises the result, but the projection of dq has a norm of
-      its own
+    nothing-left: your result is 0, but an arm with seven joints always has a motion
+      that does not move the hand
+    normalised: your code normalises the result, but the norm of the projection depends
+      on dq. Return the projection unscaled
     one-direction-only: your code uses only the last right singular vector. If J is
-      singular, more motions do not move the hand
+      singular, further directions do not move the hand
     first-direction-kept: your code does not remove the part along the first right
       singular vector, which moves the hand most
     position-only: your code uses only the three v rows of J, so the hand rotates
@@ -92,7 +92,8 @@ def _(J, dq):
 
 @row.wrong
 def damped_projector(J, dq):
-    """your code damps the pseudo-inverse by 0.05, so the hand still moves"""
+    """your code uses a pseudo-inverse with damping 0.05, so the hand still moves. Use
+    the pseudo-inverse without damping"""
     return dq - dls_step(J, J @ dq, 0.05)
 
 

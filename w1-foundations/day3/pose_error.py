@@ -46,11 +46,11 @@ def screw_log(D):
 
 @row.wrongs
 def _(T, T_goal):
-    """in-the-hands-axes: both of your halves are expressed in the hand frame. They
-      should be expressed in the world frame
-    body-twist: your result is the body twist log(T^-1 T_goal), which belongs to J_body.
-      The error should belong to J_site
-    space-twist: your result is the spatial twist log(T_goal T^-1), which belongs to
+    """in-the-hands-axes: both halves of your error are expressed in the hand frame.
+      They should be expressed in the world frame
+    body-twist: your code returns the body twist log(T^-1 T_goal), which belongs to
+      J_body. The error should belong to J_site
+    space-twist: your code returns the spatial twist log(T_goal T^-1), which belongs to
       J_space. The error should belong to J_site
     """
     D = np.linalg.inv(T) @ T_goal
@@ -68,7 +68,7 @@ def _(T, T_goal):
     rotation-sign: your rotation leads from the goal to the hand. It should lead from
       the hand to the goal
     rotation-difference: your code subtracts the rotation vectors, but log(R_goal) -
-      log(R) is not the rotation from one to the other
+      log(R) is not the rotation vector from R to R_goal
     euler-difference: your code subtracts roll, pitch and yaw, but their difference is
       not a rotation vector
     """

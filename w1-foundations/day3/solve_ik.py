@@ -30,9 +30,10 @@ BOTH_MOVE = "there both halves move"
 def _(screws, M, T_goal, q_start, limits):
     """one-step: your code takes only one step, but the Jacobian is a linear
       approximation, so several steps are needed
-    start-returned: your code returns the start, because it takes no step or because
-      every step increases the error. Is the sign of the error correct?
-    step-returned: your code returns the last step instead of the configuration
+    start-returned: your code returns `q_start`, because it takes no step or because
+      every step increases the error. Does your error have the correct sign?
+    step-returned: your code returns the last step instead of the configuration after
+      this step
     """
     first = partial(passed, screws, M, T_goal, q_start, limits, steps=1)
     return {
@@ -53,17 +54,18 @@ def in_the_hands_axes(T, T_goal):
 @row.wrongs
 def _(screws, M, T_goal, q_start, limits):
     """space-jacobian: your steps use J_space, whose v is the velocity of the point at
-      the world's origin and not of the hand
+      the world origin and not of the hand
     body-jacobian: your steps use J_body, which is expressed in the hand frame, but your
       error is expressed in the world frame. Express both in the same frame
     error-in-the-hands-axes: your error is expressed in the hand frame, but J_site is
       expressed in the world frame. Express both in the same frame
-    damping-not-squared: your code does not square the damping, so the damping term is
-      too large
-    limits-forgotten: your code does not apply the joint limits
+    damping-not-squared: your code adds the damping instead of its square, so the
+      damping term is too large
+    limits-forgotten: your code does not apply the joint limits. Apply them after each
+      step
     jacobian-never-updated: your code computes the Jacobian only at the start, but the
       Jacobian changes with every step
-    q-start-unused: your loop starts from READY_Q. It should start from q_start
+    q-start-unused: your loop starts from READY_Q. It should start from `q_start`
     """
     J = at_hand(space_jacobian(screws, q_start), fk_space(screws, M, q_start))
     parts = {
@@ -84,19 +86,20 @@ def _(screws, M, T_goal, q_start, limits):
 
 @row.wrong(hidden="it arrives all the same: success is no proof")
 def damping_not_squared(screws, M, T_goal, q_start, limits):
-    """your code passes the squared damping as the damping. Is a square root missing?"""
+    """your code uses the squared damping as the damping, so it is squared twice. Is a
+    square root missing?"""
     return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: ee / 2 + 1e-6)
 
 
 @row.wrong(hidden="few of its targets are at a limit")
 def limits_at_the_end(screws, M, T_goal, q_start, limits):
-    """your code applies the joint limits at the end only. Apply them after each step"""
+    """your code applies the joint limits only at the end. Apply them after each step"""
     return np.clip(walk(screws, M, T_goal, q_start, None), *limits.T)
 
 
 @row.wrong
 def q_start_unused(screws, M, T_goal, q_start, limits):
-    """your loop starts from q = 0. It should start from q_start"""
+    """your loop starts from q = 0. It should start from `q_start`"""
     return walk(screws, M, T_goal, np.zeros(7), limits)
 
 
@@ -176,8 +179,8 @@ def _(screws, M, T_goal, q_start, limits):  # 0 is taken to be within all limits
     return walk(screws, M, T_goal, q_start, np.array([low, high]).T)
 
 
-WRAPPED = "your code wraps the angles to [-pi, pi] at the end, but joint 6 may reach "
-WRAPPED += "3.75 rad, and a wrapped angle is outside its limits"
+WRAPPED = "your code wraps the angles to [-pi, pi] at the end, but joint6 can reach "
+WRAPPED += "3.75 rad, and the wrapped angle is then outside the joint limits"
 for kept in (True, False):
 
     @row.wrong("wrapped-to-pi", WRAPPED)

@@ -55,22 +55,23 @@ ZERO = np.zeros((3, 3))
 
 @row.wrongs
 def _(screws, q):
-    """screws-constant: your columns are the screws at q = 0, but the joints before a
-      joint move its screw
+    """screws-constant: your columns are the screws at q = 0, but each joint moves the
+      screws of all joints after it
     last-joint-only: your code moves each screw only by the joint directly before it,
       but all joints before it move the screw
     product-reversed: your code multiplies the exponentials in the reverse order, but
       the exponential of joint 1 belongs on the left
-    one-joint-late: your code uses the product before it includes the joint directly
-      before each screw, so each screw lacks the motion of that joint
+    one-joint-late: your code transforms each screw before it multiplies the product by
+      the exponential of the preceding joint, so each screw lacks the motion of that
+      joint
     moved-by-the-next: your code also moves each screw by the joint after it, but that
       joint does not affect the screw
     moved-by-all: your code moves every screw by all seven joints, but only the joints
-      before it move it
-    moved-by-those-after: your code moves each screw by the joints after it, but the
-      joints before it move it
+      before it move the screw
+    moved-by-those-after: your code moves each screw by the joints after it, but only
+      the joints before it move the screw
     adjoint-of-the-inverse: your code transforms the screws with the adjoint of the
-      inverse motion
+      inverse motion. Use the adjoint of the motion itself
     columns-reversed: your columns are in the reverse order. The column of joint 1
       should come first
     """
@@ -93,13 +94,12 @@ def _(screws, q):
 
 @row.wrongs
 def _(screws, q):
-    """bracket-top-right: the block [p] R of your adjoint is in the upper right. With
-      (omega; v) it belongs in the lower left
+    """bracket-top-right: your adjoint has the block [p] R in the upper right. With the
+      order (omega; v), this block belongs in the lower left
     bracket-after-R: the lower left block of your adjoint is R [p]. It should be [p] R
-    rotation-only: your code only rotates the screws, because it omits the block [p] R
-      of the adjoint
-    translation-only: your code does not rotate the screws, because it omits R in the
-      adjoint
+    rotation-only: your code only rotates the screws, because your adjoint lacks the
+      block [p] R
+    translation-only: your code does not rotate the screws, because your adjoint lacks R
     """
     adjoints = {
         "bracket-top-right": lambda R, P: [[R, P @ R], [ZERO, R]],
@@ -113,7 +113,7 @@ def _(screws, q):
 
 @row.wrong
 def last_column_missing(screws, q):
-    """your last column is 0, as if the loop ended one joint early"""
+    """your last column is 0. Does your loop end one joint early?"""
     J = space_jacobian(screws, q)
     J[:, 6] = 0.0
     return J

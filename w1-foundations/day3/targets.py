@@ -129,7 +129,7 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
             "not-reached",
             f"{says}{after:.2g} (in rad and m). Does the loop stop before the error is "
             "below 1e-8, or are its steps too short, because the damping differs from "
-            "the docstring?",
+            "the damping in the docstring?",
         )
     return _as_the_docstring(T_goal, q_start, limits, after)
 
@@ -142,14 +142,15 @@ def _half_there(S, M, T_goal, q) -> Finding | None:
     if move < 1e-8 and turn > 1e-4:
         says = (
             f"The hand's position is correct, but its rotation is {turn:.2g} rad off. "
-            "Does your loop use only the position in its steps, test or choice?"
+            "Does your loop use only the position error in its steps, in its stopping "
+            "test or in its choice of the best q?"
         )
         return Finding("position-only", says)
     if turn < 1e-8 and move > 1e-4:
         says = (
             "The hand's rotation is correct, but its position is "
-            f"{1000 * move:.2g} mm off. Does your loop use only the rotation "
-            "in its steps, test or choice?"
+            f"{1000 * move:.2g} mm off. Does your loop use only the rotation error "
+            "in its steps, in its stopping test or in its choice of the best q?"
         )
         return Finding("rotation-only", says)
     return None
@@ -179,7 +180,7 @@ def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
         return None
     says = (
         "For a far target, the norm of the pose error of your result is "
-        f"{after:.3g}, but 60 steps can reach {least:.3g}"
+        f"{after:.3g}, but 60 steps can reduce this norm to {least:.3g}"
     )
     return Finding(
         "not-the-best",
@@ -197,7 +198,7 @@ def _miss(S, M, T_goal, q) -> float:
 def _unchanged(q_start: Array, q: Array) -> Finding | None:
     if np.abs(q - q_start).max() <= 1e-8:
         return None
-    says = "The start is already at the target, but your result differs from it"
+    says = "The start is already at the target, but your result differs from the start"
     return Finding("start-not-kept", f"{says} by {np.abs(q - q_start).max():.2g} rad.")
 
 

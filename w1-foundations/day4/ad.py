@@ -21,8 +21,8 @@ def _(rng):
 
 @row.wrongs
 def _(V):
-    """v-on-top: your block [v] is in the upper right. The linear velocity does not
-      change an angular velocity, so that block should be 0
+    """v-on-top: your block [v] is in the upper right, but the linear velocity does not
+      change an angular velocity. The block belongs in the lower left
     v-forgotten: your code omits the block [v], but the linear velocity changes the
       linear half of a twist
     second-omega-forgotten: your lower right block is 0, but omega also rotates the

@@ -20,13 +20,13 @@ def _(rng):
 @row.wrongs
 def _(J, G, qd, g):
     """coriolis-twice: your gravity torque is correct, but your Coriolis and centrifugal
-      torques are twice as large as they should be
+      torques are twice the correct torques
     coriolis-half: your gravity torque is correct, but your Coriolis and centrifugal
-      torques are half as large as they should be
+      torques are half the correct torques
     speed-in-place-of-acceleration: your code passes qd as the acceleration and 0 as the
-      velocity
+      velocity. Pass qd as the velocity and 0 as the acceleration
     damping-added: your code adds the damping torque, 1.0 qd, but MuJoCo and task 4.8
-      keep it separate
+      treat this torque separately
     """
     holding, tau = (inverse_dynamics(J, G, v, STILL, g) for v in (STILL, qd))
     return {
@@ -52,7 +52,7 @@ row.reached_by(
 @row.wrong
 def rate_of_the_mass_matrix(J, G, qd, g):
     """your velocity term is dM/dt qd, but Lagrange's equations also subtract the
-    gradient of the kinetic energy in q"""
+    gradient of the kinetic energy with respect to q"""
     X = ad(np.cumsum(J * qd, axis=1).T)  # of each link
     J_rate = np.array([X_i @ S for X_i, S in zip(X, J.T)]).T
     G_rate = np.array([-X_i.T @ G_i - G_i @ X_i for X_i, G_i in zip(X, G)])

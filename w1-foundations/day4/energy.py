@@ -28,10 +28,10 @@ def _(rng):
 def _(M, qd, masses, coms_world, g):
     """speed-squared-too-early: your code squares qd before the product with M. The
       vector qd should be on both sides of M
-    every-mass-everywhere: your code multiplies every link's centre by the mass of the
+    every-mass-everywhere: your code multiplies every link's height by the mass of the
       whole arm. Use the mass of each link
-    distance-for-height: your potential energy uses each centre's distance from the
-      origin as its height, but only the component along g contributes
+    distance-for-height: your potential energy uses the distance of each centre of mass
+      from the origin as its height, but only the component along g contributes
     """
     K, U = energy(M, qd, masses, coms_world, g)
     all_at_once = -coms_world.sum(axis=0) @ g  # of 1 kg at each centre

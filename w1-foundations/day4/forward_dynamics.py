@@ -35,7 +35,7 @@ def _(rng):
 
 @row.wrong(
     "torque-clipped",
-    "your code clamps tau to the limits of the motors. Use it unchanged",
+    "your code clamps tau to the motors' torque limits. Use tau unchanged",
     hidden="the lab's torques are within the limits",
 )
 def _(M, bias, damping, qd, tau):
@@ -44,19 +44,20 @@ def _(M, bias, damping, qd, tau):
 
 @row.wrongs
 def _(M, bias, damping, qd, tau):
-    """both-signs: your code adds bias and damping to tau. It should subtract them
-    armature-twice: your code adds the armature to M, which already contains it since
-      task 4.3
+    """both-signs: your code adds `bias` and the damping torque to tau. It should
+      subtract both
+    armature-twice: your code adds the armature to M, but M already contains the
+      armature (task 4.3)
     mass-of-the-step: your code uses M + h damping, the matrix of the simulator's
       implicit step of h = 2 ms. The acceleration at this instant needs M alone
-    velocity-returned: your result is qd + h qdd, the velocity after a step of 2 ms.
+    velocity-returned: your code returns qd + h qdd, the velocity after a step of 2 ms.
       Return qdd
-    divided-entry-by-entry: your expression 1 / M inverts each entry, but these
-      reciprocals are not the inverse of the matrix
-    damping-not-divided: your code subtracts damping after the division by M, but
-      damping is a torque, so subtract it first
-    only-torque-divided: your code divides only the motor torque by M, but bias and
-      damping are also torques
+    divided-entry-by-entry: your expression 1 / M inverts each entry, but the inverse of
+      a matrix does not consist of reciprocals
+    damping-not-divided: your code subtracts the damping torque after the division by M.
+      Subtract all torques before the division
+    only-torque-divided: your code divides only tau by M, but `bias` and the damping
+      torque are also torques. Subtract them from tau first
     """
     brake = damping * qd
     net = tau - bias - brake
@@ -85,8 +86,8 @@ def half_solved(M, bias, damping, qd, tau):
 
 @row.wrong
 def one_factor_twice(M, bias, damping, qd, tau):
-    """your second triangular system also uses L. M is L L^T, so the second one needs
-    L^T"""
+    """your second triangular system uses L again. M is L L^T, so the second system
+    needs L^T"""
     L = np.linalg.cholesky(M)
     return solve(L, solve(L, tau - bias - damping * qd))
 

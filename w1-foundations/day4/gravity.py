@@ -14,13 +14,13 @@ UPRIGHT = "the lab's robot stands upright"
 OTHER_GRAVITY = (
     Change(
         "gravity-typed-in",
-        "your code contains gravity as a number with the wrong sign. Use the "
-        "argument {name}",
+        "your code contains gravity as the fixed number 9.81 with the wrong sign. Use "
+        "the argument {name}",
         typed_in(9.81),
     ),
     Change(
         "gravity-rounded",
-        "your code contains gravity as the number 9.8. Use the argument {name}",
+        "your code contains gravity as the fixed number 9.8. Use the argument {name}",
         typed_in(-9.8),
     ),
 )
@@ -28,8 +28,8 @@ OTHER_GRAVITY = (
 OTHER_DIRECTION = (
     Change(
         "gravity-typed-in",
-        "your code contains gravity as (0, 0, -9.81). Use the argument {name}, because "
-        "the robot may hang on a wall",
+        "your code contains gravity as the fixed vector (0, 0, -9.81). Use the "
+        "argument {name}, because the robot may be mounted on a wall",
         typed_in(-9.81),
         hidden=UPRIGHT,
     ),

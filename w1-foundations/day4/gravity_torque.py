@@ -39,8 +39,8 @@ def torque(
 
 @row.wrongs
 def _(J, masses, coms_world, g):
-    """gravity-sign: your result is the torque that gravity exerts. Return the torque
-      with which the motors balance it, which has the opposite sign
+    """gravity-sign: your code returns the torque that gravity exerts. Return the motor
+      torque that balances it, which has the opposite sign
     velocity-of-the-origin: your code uses the lower half of J_space, which is the
       velocity of the point at the world's origin. The weight acts at the centre of mass
     omega-rows-for-v: your code uses the upper half of J_space as the velocity, but this
@@ -59,11 +59,11 @@ def _(J, masses, coms_world, g):
 @row.wrongs
 def _(J, masses, coms_world, g):
     """links-not-cut: each torque in your code includes all links, but a joint carries
-      only its own link and the later ones
+      only its own link and the links after it
     own-link-only: each torque in your code includes only the joint's own link, but the
-      joint also carries all later links
-    own-link-left-out: each torque in your code includes only the later links, but the
-      joint also carries its own link
+      joint also carries the links after it
+    own-link-left-out: each torque in your code includes only the links after the
+      joint's own link, but the joint also carries its own link
     link-before-too: each torque in your code also includes the link before the joint,
       which does not move with the joint
     links-on-the-wrong-side: each torque in your code includes the links between the
@@ -85,8 +85,8 @@ def _(J, masses, coms_world, g):
 
 @row.wrong
 def centre_not_weighted(J, masses, coms_world, g):
-    """your code places the mass beyond each joint at the plain mean of the links'
-    centres. Weight each centre by its mass"""
+    """your code uses the unweighted mean of the centres of mass beyond each joint.
+    Weight each centre of mass by the mass of its link"""
     tau = np.zeros(7)
     for i in range(7):
         c = coms_world[i:].mean(axis=0)

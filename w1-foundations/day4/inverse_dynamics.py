@@ -54,16 +54,16 @@ def passes(
 
 @row.wrongs
 def _(J, G, qd, qdd, g):
-    """base-acceleration-sign: your acceleration of the base has the wrong sign. A base
-      at rest under gravity is equivalent to a base that accelerates against g
-    gravity-only: your code uses neither qd nor qdd, so the result is the gravity torque
-      alone
-    armature-added: your code adds the armature's torque, 0.1 qdd, but the task asks
-      only for the links
-    damping-added: your code adds the damping torque, 1.0 qd, but the task asks only for
+    """base-acceleration-sign: your base acceleration has the wrong sign. A base at rest
+      under gravity is equivalent to a base that accelerates against g
+    gravity-only: your code uses neither qd nor qdd, so the result is only the gravity
+      torque
+    armature-added: your code adds the armature torque, 0.1 qdd, but the task includes
+      only the links
+    damping-added: your code adds the damping torque, 1.0 qd, but the task includes only
       the links
-    armature-and-damping-added: your code adds the torques of armature and damping, 0.1
-      qdd and 1.0 qd, but the task asks only for the links
+    armature-and-damping-added: your code adds the armature torque, 0.1 qdd, and the
+      damping torque, 1.0 qd, but the task includes only the links
     """
     given = {
         "base-acceleration-sign": (qd, qdd, -g),
@@ -86,36 +86,37 @@ def walked(J, G, qd, qdd, g, others):
 
 @row.wrongs
 def _(J, G, qd, qdd, g):
-    """bracket-forgotten: your acceleration lacks ad(V) S qd, but the screw of a joint
-      changes its direction when it moves with its link
-    bracket-sign: the term ad(V) S qd has the wrong sign in your acceleration
-    bracket-twice: your code adds ad(V) S qd twice to the acceleration. It needs no
-      factor 2, because the wrench contributes the other half of the Coriolis force
+    """bracket-forgotten: your acceleration lacks the term ad(V) S qd, but a joint's
+      screw changes direction when it moves with its link
+    bracket-sign: your acceleration has the wrong sign in front of the term ad(V) S qd
+    bracket-twice: your code adds ad(V) S qd twice to the acceleration. The acceleration
+      needs no factor 2, because the wrench contributes the other half of the Coriolis
+      force
     speed-squared: your acceleration contains ad(V) S qd^2, but V already contains one
       of the two velocities
     bracket-not-transposed: your wrench contains ad(V), but wrenches transform with the
       transpose of ad(V)
     velocity-product-forgotten: your wrench is G A alone. It should also contain
       -ad(V)^T G V, because the inertia itself moves
-    velocity-of-the-link-before: your code uses V in the wrench before it adds the
-      velocity of the link's own joint
+    velocity-of-the-link-before: your wrench uses V before your code adds the velocity
+      of the link's own joint
     summed-from-the-base: your code sums the wrenches from the base to the tip. A motor
       carries the links beyond it, so start at the tip
     every-link-for-all: each torque in your code includes the wrenches on all seven
-      links, but a joint carries only its own link and the later ones
+      links, but a joint carries only its own link and the links after it
     moment-only: your code uses only the moments about the world's origin. Use all six
       components of S, because the force also acts on an axis that does not pass through
       the origin
-    own-link-left-out: each torque in your code includes only the wrenches on the later
-      links, but the joint also carries its own link
-    accelerations-not-added: your acceleration of a link includes only its own joint,
-      but the joints before it also move the link
+    own-link-left-out: each torque in your code includes only the wrenches on the links
+      after the joint's own link, but the joint also carries its own link
+    accelerations-not-added: your acceleration of each link includes only the link's own
+      joint, but the joints before this joint also move the link
     nothing-added-outwards: your code resets V and A at every link. They should
       accumulate along the arm
     gravity-at-every-link: your code adds gravity at the base and again at every link,
       but the recursion already propagates it from the base
-    bracket-not-transposed 2: your wrench contains ad(V) instead of minus its transpose,
-      but wrenches transform with the transpose
+    bracket-not-transposed 2: your wrench contains ad(V) instead of -ad(V)^T, but
+      wrenches transform with the transpose
     gravity-at-every-link 2: your code adds gravity again at every link, but the
       recursion already propagates it from the base
     """

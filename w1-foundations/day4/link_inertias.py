@@ -45,17 +45,17 @@ def carried(
 @row.wrongs
 def _(T_links, masses, coms, inertias):
     """com-in-link-axes: your code uses the centre of mass in the link frame. Transform
-      it to the world frame with T
+      the centre of mass to the world frame with T
     com-turned-back: your code rotates the centre of mass with R^T, which rotates from
       the world frame to the link frame
     com-seen-from-the-link: your code transforms the centre of mass with the inverse of
       T, but T maps the link frame to the world frame
     inertia-not-turned: your inertia about the centre of mass is still expressed in the
       link frame. Rotate it to the world frame
-    inertia-turned-back: your inertia is R^T I R, but R^T rotates from the world frame
-      to the link frame
-    inertia-diagonal: your code uses only the diagonal of each inertia, but the link
-      frame need not be aligned with the principal axes
+    inertia-turned-back: your rotated inertia is R^T I R, but R^T rotates from the world
+      frame to the link frame
+    inertia-diagonal: your code uses only the diagonal of each inertia matrix, but the
+      link frame need not be aligned with the principal axes
     R-transposed: your code transposes R for the centre of mass and for the inertia, but
       R^T rotates from the world frame to the link frame
     """
@@ -80,16 +80,17 @@ def _(T_links, masses, coms, inertias):
 def _(T_links, masses, coms, inertias):
     """left-in-link-axes: your code does not use T_links, so each matrix is expressed in
       its link frame
-    adjoint-not-inverted: your result is Ad(T) G Ad(T)^T. G maps a twist to a momentum,
-      so its right factor should map a twist from the world frame to the link frame
-    origin-for-com: your code places the mass at the link's origin, but the mass belongs
-      at the centre of mass
+    adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. G maps a twist to a
+      momentum, so the factor on its right should map a twist from the world frame to
+      the link frame
+    origin-for-com: your code places the mass at the link's origin. Place the mass at
+      the centre of mass
     poses-multiplied: your code multiplies the poses along the arm, but each T of
       T_links is already relative to the world
-    last-link-for-all: all seven of your matrices belong to link7. Does your loop fill
-      the same array for every link and append it each time? Create a new array
-    already-summed: each of your matrices also contains the links beyond its own. Each
-      matrix should belong to one link
+    last-link-for-all: all seven of your matrices belong to link7. Does your loop
+      overwrite one array and append it for every link? Create a new array each time
+    already-summed: each of your matrices also includes the links after its own link.
+      Each matrix should belong to one link
     """
 
     def placed(T, c=coms):
@@ -109,7 +110,7 @@ def _(T_links, masses, coms, inertias):
 
 @row.wrong
 def pose_of_the_link_before(T_links, *body):
-    """each link in your code uses the pose of the link before it. T_links[0] belongs to
+    """your code uses the pose of the previous link for each link. T_links[0] belongs to
     link1"""
     return link_inertias([np.eye(4), *T_links[:-1]], *body)
 

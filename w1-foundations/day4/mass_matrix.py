@@ -31,7 +31,7 @@ def _(J, G, armature):
     """armature-per-link: your code adds the armature once per link, but each rotor
       contributes only once
     mirrored-with-the-diagonal: your code adds M and its transpose, which doubles the
-      diagonal
+      diagonal. Mirror only the off-diagonal entries
     """
     M = mass_matrix(J, G, armature)
     return {
@@ -42,15 +42,15 @@ def _(J, G, armature):
 
 def cut(J, G, armature):
     """columns-not-cut: your Jacobian of each link contains all columns, but the joints
-      after a link do not move it
+      after a link do not move this link
     own-joint-left-out: your Jacobian of each link lacks the column of the link's own
       joint, which also moves the link
     next-joint-too: your Jacobian of each link contains one column too many, because the
       next joint does not move the link
-    columns-cut-on-the-wrong-side: your Jacobian of each link lacks the joints before
-      the link, but these joints move it
-    own-joint-only: your Jacobian of each link contains only the link's own joint, but
-      all joints before it also move the link
+    columns-cut-on-the-wrong-side: your Jacobian of each link lacks the columns of the
+      joints before the link, but these joints move the link
+    own-joint-only: your Jacobian of each link contains only the column of the link's
+      own joint, but all joints before this joint also move the link
     """
     joint = np.arange(7)
     link = np.arange(7)[:, None]
@@ -71,8 +71,8 @@ row.wrongs(cut)
 def _(J, G, armature):
     """corners-swapped: the off-diagonal blocks of your G have the wrong sign. M is
       still symmetric and positive definite, but it is wrong
-    corners-dropped: your code adds rotation and translation separately and omits the
-      off-diagonal blocks of G, which couple them
+    corners-dropped: your code adds the rotational and translational parts separately
+      and omits the off-diagonal blocks of G, which couple them
     angular-half-only: your code uses only the angular half of J_space, but the links'
       linear velocities also contribute
     linear-half-only: your code uses only the linear half of J_space and the masses, but
@@ -92,7 +92,7 @@ def _(J, G, armature):
 @row.wrong
 def not_summed_back(J, G, armature):
     """each entry in your code includes only one link, but a joint carries all links
-    distal to it"""
+    after it"""
     M = np.diag(armature)
     for i in range(7):
         for j in range(7):

@@ -36,7 +36,7 @@ def _(m, c, I):
     distance-in-all-directions: your upper left block uses |c|^2 for all three axes, but
       only the distance from an axis contributes to the inertia about it
     products-of-inertia-sign: the off-diagonal entries of your inertia have the wrong
-      sign. The argument is already the inertia matrix, so add it unchanged
+      sign. The argument is already the inertia matrix, so use its entries unchanged
     """
     C = skew(c)
     own = np.diag(np.diag(I))
@@ -53,7 +53,7 @@ def _(m, c, I):
 @row.wrongs
 def _(m, c, I):
     """about-the-centre-of-mass: your code does not use c, so the matrix is about the
-      centre of mass. About the origin, three of the four blocks contain c
+      centre of mass. The matrix about the origin contains c in three of its four blocks
     corners-alike: your two off-diagonal blocks are equal. The matrix is symmetric, so
       one block should be the transpose of the other
     corners-alike 2: your two off-diagonal blocks are equal. The matrix is symmetric, so
@@ -62,8 +62,8 @@ def _(m, c, I):
       symmetric and positive definite, but the momentum has the wrong direction
     corners-empty: your two off-diagonal blocks are 0. These blocks couple rotation and
       translation, and they are 0 only about the centre of mass
-    one-corner-empty: one of your off-diagonal blocks is 0. The matrix is symmetric, so
-      each of the two blocks should be the transpose of the other
+    one-corner-empty: your matrix has one off-diagonal block that is 0. The matrix is
+      symmetric, so each off-diagonal block should be the transpose of the other
     mass-forgotten-in-the-corners: your two off-diagonal blocks contain [c] without the
       mass. They should contain m [c]
     mass-everywhere: your lower right block has the mass in all nine entries. Only the

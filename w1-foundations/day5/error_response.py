@@ -78,11 +78,11 @@ def _(t, omega, zeta):
       start at rest, but this curve starts with a nonzero derivative
     envelope-of-omega: your curve is e^(-omega t) for every zeta. The error should start
       at rest, but this curve starts with a nonzero derivative
-    half-the-damping: your curve belongs to half the damping ratio. In the equation, the
-      factor of ed is 2 zeta omega
+    half-the-damping: your curve belongs to half the damping ratio. In the error
+      equation, the factor of ed is 2 zeta omega
     output-in-place-of-error: your curve rises from 0 to 1, as the step response of the
       joint does. The error is 1 minus the step response
-    omega-in-turns: your code multiplies omega by 2 pi as if it were in turns per
+    omega-in-turns: your code multiplies omega by 2 pi as if it were in revolutions per
       second, but omega is in rad/s
     """
     return {
@@ -97,11 +97,11 @@ def _(t, omega, zeta):
 
 @row.wrongs(hidden=HIDDEN)
 def _(t, omega, zeta):
-    """window-around-one: your code also uses the formula for zeta = 1 for other zeta
-      near 1, where it is wrong. Use it only if zeta differs from 1 by no more than
-      rounding, for example 1e-9
+    """window-around-one: your code also uses the formula for zeta = 1 for values of
+      zeta near 1, where it is not accurate. Use this formula only if zeta equals 1 up
+      to rounding, for example within 1e-9
     time-from-the-first: your code measures time from t[0]. The error should be 1 at t =
-      0, whether or not t contains 0
+      0, even if t does not contain 0
     first-entry-one: your first entry is always 1. The error should be 1 only at t = 0
     """
     near = 1.0 if abs(zeta - 1.0) < 0.05 else zeta
@@ -115,16 +115,16 @@ def _(t, omega, zeta):
 @row.wrongs
 def _(t, omega, zeta):
     """slow-exponential-alone: for zeta above 1 your code uses only the slow
-      exponential. The error should start at rest, but this curve does not
-    both-halves: for zeta above 1 both of your exponentials have the weight 1/2. The
-      error should start at rest, but this curve does not
+      exponential, so the error does not start at rest
+    both-halves: for zeta above 1 both of your exponentials have the weight 1/2, so the
+      error does not start at rest
     weights-swapped: for zeta above 1 the weights of your two exponentials are swapped,
       so the error does not start at rest
-    weights-summed: for zeta above 1 your curve does not start at rest. Your code adds
-      the weighted exponentials and divides by the sum of their rates, which is also
-      what the inverse factor of sinh gives
+    weights-summed: for zeta above 1 your curve does not start at rest. With two
+      exponentials, subtract the weighted terms and the rates instead of adding them.
+      With cosh and sinh, invert the factor of sinh
     critical-above-one: for zeta above 1 your code returns the curve for zeta = 1, but
-      more damping makes the decay slower
+      the decay should be slower for a larger zeta
     """
     above = zeta if zeta > 1.0 else 2.0  # below, the library answers
     half_gap = omega * np.sqrt(above**2 - 1.0)

@@ -26,16 +26,16 @@ def _(rng):
 
 @row.wrongs
 def _(e, ed, kp, kd, g_at_q):
-    """gravity-sign: your gravity torque has the wrong sign. The argument g_at_q is the
-      torque that the motors must supply to hold the arm
-    gravity-through-the-gain: your code multiplies the gravity torque by kp, but it is
-      already a torque. Add it to the PD torque
-    gravity-at-the-goal-only: where e is 0 your code returns only the gravity torque,
-      and elsewhere only the PD torque. The result should be the sum of both everywhere
+    """gravity-sign: your gravity torque has the wrong sign. The argument `g_at_q` is
+      the torque that the motors must supply to hold the arm
+    gravity-through-the-gain: your code multiplies the gravity torque by kp, but gains
+      apply only to errors. Add the gravity torque to the PD torque
+    gravity-at-the-goal-only: your code returns only the gravity torque where e is 0,
+      and only the PD torque elsewhere. It should always return the sum of both
     gravity-at-rest-only: your code adds the gravity torque only where ed is 0, but
       gravity also acts on a moving arm
-    nothing-at-the-goal: where e is 0 your result is 0, but the motors must also hold
-      the weight at the goal
+    nothing-at-the-goal: your result is 0 where e is 0, but the motors must also support
+      the weight of the arm at the goal
     """
     springs = kp * e + kd * ed
     away = np.any(e)

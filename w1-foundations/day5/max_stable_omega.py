@@ -18,10 +18,10 @@ def _(h):
     """undamped-limit: your result 2 / h is the stability limit of a spring without
       damping. With critical damping the limit is lower, because the damping torque acts
       one step late
-    one-over-h: your result 1 / h is a rule of thumb. Find the omega at which the matrix
-      of the step has the eigenvalue -1
+    one-over-h: your result 1 / h is a rule of thumb. Find the omega at which the step
+      matrix has the eigenvalue -1
     larger-root: your result is the larger root of the quadratic equation, but the loop
-      becomes unstable at the smaller root
+      already becomes unstable at the smaller root
     nyquist: your result pi / h is the Nyquist frequency. It limits which signals can be
       sampled, not which loop is stable
     in-hertz: your result is in Hz, but it should be in rad/s

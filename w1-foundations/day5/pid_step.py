@@ -31,7 +31,7 @@ def which_answer(case: Case) -> Finding:
     if all(bad):
         rest = "Both of your outputs are wrong. Look at the integral first."
     count = int(np.sum(~wrong.any(axis=0)))
-    where = f" The result is right in {count} of {len(S)} calls." if count else ""
+    where = f" The result is correct in {count} of {len(S)} calls." if count else ""
     return Finding(f"{NAMES[at]}-wrong", f"{rest} {says}{where}")
 
 
@@ -90,23 +90,25 @@ def _(e, ed, integral, ki, dt, clamp):
     error-clamped: your code clamps the error instead of the integral, so the integral
       can still grow without bound. Clamp the integral after the addition of e dt
     step-clamped: your code clamps only e dt, so the integral can still grow without
-      bound. Clamp the integral after the addition of e dt
-    frozen-at-the-limit: your code keeps the old integral if the new one exceeds the
-      limit. Clamp the new one to the limit
+      bound. Clamp the integral after this addition
+    frozen-at-the-limit: your code keeps the old integral if the new integral exceeds
+      the limit. Clamp the new integral to the limit
     emptied-at-the-limit: your code resets the integral to 0 if it exceeds the limit.
-      Clamp it to the limit instead
-    clamped-on-one-side: your code clamps the integral above but not below
-    clamped-on-one-side 2: your code clamps the integral below but not above
-    never-negative: your code clamps the integral to the range from 0 to clamp. The
+      Clamp the integral to the limit instead
+    clamped-on-one-side: your code clamps the integral only at the upper limit. Clamp it
+      at the lower limit too
+    clamped-on-one-side 2: your code clamps the integral only at the lower limit. Clamp
+      it at the upper limit too
+    never-negative: your code clamps the integral to the range from 0 to `clamp`. The
       lower limit should be -clamp
-    clamped-as-a-vector: your code limits the norm of the integral to clamp. Clamp each
-      joint's integral separately
-    term-clamped: your code clamps ki times the integral, but clamp is the limit of the
-      integral itself
+    clamped-as-a-vector: your code limits the norm of the integral to `clamp`. Clamp
+      each joint's integral separately
+    term-clamped: your code clamps ki times the integral, but the argument `clamp` is
+      the limit of the integral itself
     old-sum-clamped 2: your code clamps the old integral and e dt separately. Clamp
       their sum
     frozen-at-the-limit 2: in your code, an integral at its limit never changes again.
-      An error of the other sign should reduce it
+      An error of the opposite sign should reduce it
     """
     step = e * dt
     new = integral + e * dt
@@ -135,14 +137,14 @@ def _(e, ed, integral, kp, kd, ki, dt, clamp):
     """clamped-too-late: your acceleration uses the integral before it is clamped. Use
       the clamped integral
     bound-not-handed-back: your acceleration uses the clamped integral, but your code
-      returns the integral without the clamp, so it can grow without bound
+      returns the unclamped integral, which can grow without bound
     old-integral-used: your acceleration uses the integral of the previous step. Update
       the integral first
-    old-integral-kept: your code returns the integral unchanged. Return the new one
-    this-step-alone-used: your code multiplies ki by e dt of this step only, but the
+    old-integral-kept: your code returns the old integral. Return the updated integral
+    this-step-alone-used: your code multiplies only the current e dt by ki, but the
       acceleration needs the whole integral
-    ki-in-the-integral: your integral already contains ki, so clamp no longer limits the
-      integral itself
+    ki-in-the-integral: your integral already contains ki, so `clamp` no longer limits
+      the integral of the error
     term-handed-back: your code returns ki times the integral. Return the integral
       itself
     swapped: your code swaps the two outputs. The acceleration should be first

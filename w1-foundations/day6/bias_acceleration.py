@@ -53,26 +53,28 @@ def bias(
 
 @row.wrongs
 def _(J_space, qd, p):
-    """of-the-origin: your result is the rate of the twist, the sum of ad(V) S qd. Its
-      linear part belongs to the world's origin. Convert it to the point p
+    """of-the-origin: your code returns the rate of change of the twist, the sum of
+      ad(V) S qd. Its linear part belongs to the world origin and has to be converted to
+      the point p
     no-centripetal: your code omits the term omega x (velocity of p), but a point on a
       circle accelerates towards the centre even at constant speed
     no-alpha-cross-p: your code omits the term alpha x p, so the linear acceleration
-      belongs to the world's origin and not to p
-    velocity-of-origin: your code crosses omega with v, the velocity of the point at the
-      world's origin, but p has the velocity v + omega x p
-    v-forgotten: your code calculates the velocity of p as omega x p. It should also
-      contain v
-    coriolis-twice: your code adds omega x v twice, but ad(V) S already contains it
-      once. The form 2 omega x v belongs to accelerations measured in a rotating frame
+      belongs to the world origin and not to p
+    velocity-of-origin: your code uses omega x v, where v is the velocity of the point
+      at the world origin. The point p has the velocity v + omega x p
+    v-forgotten: your code computes the velocity of p as omega x p. This velocity should
+      also contain v
+    coriolis-twice: your code adds omega x v twice, but ad(V) S already contains this
+      term once. The form 2 omega x v belongs to accelerations measured in a rotating
+      frame
     centripetal-twice: your code adds omega x (velocity of p) twice, but the factor 2
       belongs to the Coriolis acceleration in a rotating frame
     p-sign: your code swaps the factors of the cross products with p, but p x omega is
       -(omega x p)
-    ad-swapped: your code swaps V and S in ad(V) S, which reverses its sign, or it sums
+    ad-swapped: your code swaps V and S in ad(V) S, which reverses the sign, or it sums
       the twists from the tip instead of the base
-    ad-transposed: your code transposes ad(V). The transpose acts on wrenches, but
-      screws need ad(V)
+    ad-transposed: your code transposes ad(V). The transpose maps wrenches, but screws
+      need ad(V) itself
     ad-half: your ad(V) lacks its lower left block [v], but the linear velocity changes
       the linear half of a twist
     twist-of-the-hand: every joint in your code uses the twist of the hand. Joint i

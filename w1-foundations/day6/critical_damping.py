@@ -43,24 +43,24 @@ def by_modes(K, L):
 def _(K, Lambda):
     """Lambda-ignored: your code does not use `Lambda`, but 2 sqrt(K) is the critical
       damping of a unit mass
-    another-design: your result is another critically damped design, which diagonalises
-      Lambda and K together. The task asks for the sum of the two products of
-      sqrt(Lambda) and sqrt(K)
-    diagonal-only: each axis in your code uses 2 sqrt(k m) with the diagonal of Lambda,
-      but Lambda couples the axes
-    one-order-only: your code uses the product of the two roots twice in the same order.
-      Add both orders, so that the result is symmetric
+    another-design: your code returns another critically damped design, which
+      diagonalises Lambda and K together. The task requires the sum of the two products
+      of sqrt(Lambda) and sqrt(K)
+    diagonal-only: each axis in your code uses 2 sqrt(k m), with m from the diagonal of
+      Lambda, but Lambda couples the axes
+    one-order-only: your code adds the same product of the two roots twice. Add the
+      products in both orders, so that the result is symmetric
     half-of-it: your code uses only one of the two products. Add the product in the
-      other order
-    factor-two: your result contains the factor 2, but the sum of both orders already
-      contains it
-    factor-two-missing: your code averages the two orders. It should add them
+      opposite order
+    factor-two: your result contains an extra factor 2. For single numbers k and m, the
+      sum of the two products is already 2 sqrt(k m)
+    factor-two-missing: your code averages the two products. It should add them
     root-on-both-sides: your code has sqrt(Lambda) on both sides of sqrt(K), so the
       result grows with the mass. It should grow with the square root of the mass
-    root-of-the-product: your result is 2 sqrt(K Lambda), entry by entry. Use the matrix
-      square root of Lambda
-    cholesky: your code uses a Cholesky factor instead of the square root, but Lambda is
-      L L^T and not L L
+    root-of-the-product: your code computes 2 sqrt(K Lambda) entry by entry. Use the
+      matrix square root of Lambda
+    cholesky: your code uses a Cholesky factor L instead of the square root, but Lambda
+      is L L^T and not L L
     """
     k = np.sqrt(K)
     half = root(Lambda)
@@ -84,15 +84,15 @@ def _(K, Lambda):
     """entries-square-rooted: your code uses np.sqrt, which takes the root of each entry
       of Lambda, but the matrix square root X satisfies X X = Lambda
     eigenvectors-transposed: your code transposes the eigenvectors. The columns of V are
-      the eigenvectors, so the root is V diag V^T
-    eigenvalues-not-rooted-back: your root diag(sqrt(values)) is in the eigenvector
-      basis. Rotate it back with V
-    cholesky: your code uses a Cholesky factor instead of the square root, but Lambda is
-      L L^T and not L L
-    entries-square-rooted 2: your code uses the root of the absolute value of each
+      the eigenvectors, so the square root is V diag(sqrt(values)) V^T
+    eigenvalues-not-rooted-back: your square root diag(sqrt(values)) is expressed in the
+      eigenvector basis. Transform it back with V
+    cholesky: your code uses a Cholesky factor L instead of the square root, but Lambda
+      is L L^T and not L L
+    entries-square-rooted 2: your code takes the root of the absolute value of each
       entry, but the matrix square root X satisfies X X = Lambda
-    eigenvectors-transposed 2: your code omits the last transpose. The root is V diag
-      V^T
+    eigenvectors-transposed 2: your code omits the last transpose. The square root is V
+      diag(sqrt(values)) V^T
     """
     values, V = np.linalg.eigh(Lambda)
     roots = {

@@ -29,14 +29,14 @@ def _(rng):
 
 @row.wrongs
 def _(J, wrench, bias, damping, qd, tau_null):
-    """damping-summed: your expression damping @ qd is a dot product, which sums over
+    """damping-summed: your expression `damping @ qd` is a dot product, which sums over
       the joints. Multiply entry by entry
-    bias-sign: your bias has the wrong sign. The argument bias is the torque that the
-      motors must supply
+    bias-sign: your bias term has the wrong sign. The argument `bias` is the torque that
+      the motors must supply
     damping-sign: your damping torque has the wrong sign. Damping opposes the motion, so
-      the motors must supply damping qd
-    bias-six-times: your code adds bias once for each of the six rows of J. Add it once
-      per joint
+      the motors must supply the torque `damping` times qd
+    bias-six-times: your code adds `bias` once for each of the six rows of J. Add it
+      only once
     pinv-for-transpose: your code maps the wrench to the joints with pinv(J). The
       pseudo-inverse maps velocities, but J^T maps wrenches to torques
     """

@@ -19,13 +19,13 @@ def damped(case: Case) -> Finding | None:
     left = a - solve(Lambda, push[..., None])[..., 0]  # of a damped one: c times push
     added = np.sum(left * push) / max(np.sum(push * push), 1e-12)
     if added > 1e-8 and np.abs(left - added * push).max() < 0.01 * np.abs(left).max():
-        return Finding("damped", f"{DAMPED} The number is {added:.2g}.")
+        return Finding("damped", f"{DAMPED} The added number is {added:.2g}.")
     return None
 
 
 DAMPED = (
-    "Your code adds a number to the diagonal of J M^-1 J^T, so a part of the torque "
-    "accelerates the hand. Use the argument Lambda."
+    "Your code adds a number to the diagonal of J M^-1 J^T, so part of the torque "
+    "still accelerates the hand. Use the argument Lambda."
 )
 # One matrix with two readings: J^T pinv(J^T) is J^+ J.
 row = Row(TORQUE, alike=[{"pinv-of-transpose", "kinematic-projector"}], unnamed=damped)
@@ -39,23 +39,22 @@ def _(rng):
 
 @row.wrongs
 def _(J, M, Lambda, tau):
-    """another-projector: your result does not accelerate the hand either, but the
-      torque that you subtract is not J^T times a wrench. Use the wrench that Lambda
-      gives
-    acceleration: your result is a joint acceleration that does not move the hand.
+    """another-projector: your result does not accelerate the hand, but your code
+      subtracts a torque that is not J^T times a wrench. Compute this wrench with Lambda
+    acceleration: your code returns a joint acceleration that does not move the hand.
       Multiply it by M to get a torque
     not-projected: your code returns tau unchanged, so tau also accelerates the hand
     kinematic-projector: your projector I - J^+ J acts on joint velocities, not on
       torques, because the acceleration from a torque depends on M. The arm still draws
-      the circle, but the hand accelerates by metres per second squared
-    M-for-identity: your code multiplies tau by M before the subtraction. The unit of M
-      tau is kg m2 times N m, so it is not a torque
+      the circle, but the hand accelerates by several m/s2
+    M-for-identity: your code multiplies tau by M before the subtraction. M tau has the
+      unit kg m2 times N m, so it is not a torque
     projector-transposed: your projector is transposed. M^-1 J^T Lambda J acts on joint
-      accelerations, but for torques M^-1 is on the right
-    the-other-part: your result is the part of tau that accelerates the hand. Subtract
-      it from tau
+      accelerations, but in the projector for torques M^-1 is on the right
+    the-other-part: your code returns the part of tau that accelerates the hand.
+      Subtract this part from tau
     position-only: your code removes only the linear acceleration of the hand, so the
-      hand rotates
+      hand still rotates
     pinv-for-transpose: your code maps the wrench to the joints with pinv(J), but J^T
       maps wrenches to torques
     pinv-of-transpose: your projector I - J^T pinv(J^T) acts on joint velocities, not on

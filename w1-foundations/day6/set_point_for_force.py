@@ -27,13 +27,13 @@ def _(force, k, surface):
     """millimetres: your depth is in millimetres, but all lengths should be in metres
     whole-metres: your operator // rounds the depth down to whole metres. Use /
     docstrings-numbers: your k is always 400, the value in the docstring. Use the
-      argument
+      argument `k`
     docstrings-numbers 2: your surface is always at 0.42, the value in the docstring.
-      Use the argument
-    never-below-zero: your code replaces heights below 0 by 0, but the commanded height
-      can be below 0
-    newtons-as-weight: your code divides force by 9.81, which gives a mass. The force
-      should stay in newtons
+      Use the argument `surface`
+    never-below-zero: your code replaces negative heights by 0, but the commanded height
+      can be negative
+    newtons-as-weight: your code divides the force by 9.81, which gives a mass. Use the
+      force in newtons
     """
     return {
         "millimetres": surface - 1000.0 * force / k,

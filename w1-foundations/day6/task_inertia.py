@@ -16,19 +16,19 @@ def damped(case: Case) -> Finding | None:
     extra = np.linalg.inv(case.S) - np.linalg.inv(case.T)
     added = np.median(extra[:, range(6), range(6)])
     if added > 1e-8 and np.abs(extra - added * np.eye(6)).max() < 0.01 * added:
-        return Finding("damped", f"{DAMPED} The number is {added:.2g}.")
+        return Finding("damped", f"{DAMPED} The added number is {added:.2g}.")
     return None
 
 
 DAMPED = (
-    "Your code adds a number to the diagonal of J M^-1 J^T before the inversion. It "
+    "Your code adds a number to the diagonal of J M^-1 J^T before the inversion. This "
     "keeps Lambda finite at a singularity but makes Lambda too small elsewhere."
 )
 NEARLY_SINGULAR = HeldOut(
     "small-values-cut",
     "Your result is correct except near a singularity. In the direction in which the "
-    "hand hardly moves, its inertia is large, not 0. Does a pseudo-inverse omit small "
-    "values?",
+    "hand hardly moves, its inertia is large, not 0. Does your code use a "
+    "pseudo-inverse that discards small singular values?",
     lambda rng: [(np.diag([1.0, 1.0, 1.0, 1.0, 1.0, 0.01]) @ J_CASE, 2.0 * M_CASE)],
     mistaken=lambda J, M: np.linalg.pinv(J @ np.linalg.solve(M, J.T), 1e-3),
 )
@@ -52,15 +52,15 @@ def inertia(J: Array, M: Array) -> Array:
 
 @row.wrongs
 def _(J, M):
-    """inverse-forgotten: your result is the inverse of Lambda, which maps a wrench to
-      an acceleration. Lambda should map an acceleration to a wrench
-    M-not-inverted: your code uses M between J and J^T. It should use M^-1, because M^-1
-      maps the joint torques J^T F to joint accelerations
+    """inverse-forgotten: your code returns the inverse of Lambda, which maps a wrench
+      to an acceleration. Lambda should map an acceleration to a wrench
+    M-not-inverted: your code uses M between J and J^T. Use M^-1, because M^-1 maps the
+      joint torques J^T F to joint accelerations
     pinv-both-sides: your result pinv(J)^T M pinv(J) is correct for an arm of six
       joints. A seventh joint can also give way, so the hand has less inertia
-    armature-left-out: your code subtracts the armature (the inertia of the motors'
-      rotors) from M, but the rotors turn with the joints and contribute to the inertia
-      at the hand
+    armature-left-out: your code subtracts the armature (the rotor inertia of the
+      motors) from M, but the rotors rotate with the joints and contribute to the
+      inertia at the hand
     armature-twice: your code adds the armature to M, but M already contains it
     diagonal-inverted: your code inverts only the diagonal of J M^-1 J^T. The six
       directions are coupled, so invert the whole matrix

@@ -49,17 +49,19 @@ def _(m1, c1, I1, m2, c2, I2):
     about-the-origin: your inertia is about the origin of the frame. It should be about
       the common centre of mass
     only-the-second-moved: your code moves only the second inertia to the common centre
-      of mass, but the first centre of mass also differs from it
+      of mass. The first body's centre of mass also differs from the common centre, so
+      move both
     only-the-first-moved: your code moves only the first inertia to the common centre of
-      mass, but the second centre of mass also differs from it
+      mass. The second body's centre of mass also differs from the common centre, so
+      move both
     about-the-first-centre: your inertia is about the first body's centre of mass. It
       should be about the common centre of mass
     distance-of-the-two: your parallel-axis theorem uses the distance between the two
-      bodies. Use the distance of each body from the common centre of mass
+      centres of mass. Use the distance of each centre of mass from the common centre
     mass-not-in-the-theorem: your parallel-axis theorem lacks the mass of the body. The
-      inertia changes by m ((d . d) E - d d^T), where E is the identity
+      theorem adds m ((d . d) E - d d^T), where E is the identity
     total-mass-for-each: your parallel-axis theorem uses the total mass for each body.
-      Use the mass of the body that is moved
+      Use the mass of the body whose inertia is moved
     """
     c = centre(m1, c1, m2, c2)
     own = I1 + I2
@@ -82,8 +84,8 @@ def _(m1, c1, I1, m2, c2, I2):
 def _(m1, c1, I1, m2, c2, I2):
     """products-not-moved: your parallel-axis theorem changes only the moments of
       inertia, but the outer product d d^T also has off-diagonal entries
-    distance-not-squared: your parallel-axis theorem uses the distance. It should use
-      the squared distance d . d
+    distance-not-squared: your parallel-axis theorem uses the distance itself. It should
+      use the squared distance d . d
     """
     c = centre(m1, c1, m2, c2)
     theorems = {

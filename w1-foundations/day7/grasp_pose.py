@@ -41,13 +41,13 @@ def tool(T_world_cube, above, yaw):
 def _(T_world_cube, above):
     """yaw-not-folded: your tool has the full yaw of the cube. A rotation by 90 degrees
       does not change a cube, so a yaw within 45 degrees of 0 is enough
-    folded-to-90: the yaw of your tool is between 0 and 90 degrees. It should be between
-      -45 and 45 degrees
+    folded-to-90: your tool has a yaw between 0 and 90 degrees. The yaw should be
+      between -45 and 45 degrees
     rounded-towards-zero: your code truncates the number of quarter turns, so a yaw of
-      up to 90 degrees remains. Round it to the nearest integer
-    folded-by-half-turns: your code subtracts multiples of 180 degrees, but a cube looks
-      the same after 90 degrees already
-    yaw-forgotten: the yaw of your tool is always 0, so the fingers meet the edges of a
+      up to 90 degrees remains. Round this number to the nearest integer
+    folded-by-half-turns: your code subtracts multiples of 180 degrees, but a cube
+      already looks the same after 90 degrees
+    yaw-forgotten: your tool always has the yaw 0, so the fingers meet the edges of a
       rotated cube
     turned-the-wrong-way: your tool rotates in the opposite direction to the cube. Check
       the sign of the yaw and the arguments of arctan2, then the order of the product
@@ -69,7 +69,7 @@ def _(T_world_cube, above):
 def _(T_world_cube, above):
     """tool-up: the z axis of your tool points up. It should point down
     about-y: your tool is turned over about its y axis, so at yaw 0 its x axis points
-      backwards. It should be the world's x axis
+      backwards. At yaw 0, this axis should be the world x axis
     left-handed: your code reverses only the z axis, so the matrix is a reflection with
       determinant -1. A rotation reverses two axes
     """

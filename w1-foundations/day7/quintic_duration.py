@@ -11,8 +11,8 @@ from robo47.trajectory import PEAK_ACCELERATION, PEAK_SPEED
 NO_LIMIT = 1e9  # rad/s2, in the docstring's case
 NO_WAY = HeldOut(
     "no-way",
-    "Your function is right except when no joint moves. The duration should then be 0 "
-    "s.",
+    "Your function is correct except if no joint moves. The duration should then be "
+    "0 s.",
     lambda rng: [(np.zeros(7), SPEED_LIMITS, ACC_LIMITS)],
 )
 
@@ -57,10 +57,10 @@ def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERAT
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """least-of-all: your result is the shortest duration of all joints and limits, but
-      the slowest joint determines the duration
+    """least-of-all: your code returns the shortest of all durations, but the joint and
+      the limit with the longest duration determine the result
     added-up: your code adds the durations of all joints and limits, but the joints move
-      at the same time
+      at the same time. Use the longest duration
     """
     each = seconds(delta_q, v_max, a_max)
     return {"least-of-all": each.min(), "added-up": each.sum()}
@@ -72,10 +72,10 @@ def _(delta_q, v_max, a_max):
       scaling. The quintic is faster halfway and exceeds the limit by 25 %
     peak-of-the-cubic 2: your function uses 6, the maximum acceleration of the cubic
       scaling. The quintic has its maximum where the derivative of its acceleration is 0
-    peak-of-the-cubic 3: your function uses 1.5 and 6, the maxima of the cubic scaling.
-      The quintic has other maxima
+    peak-of-the-cubic 3: your function uses 1.5 and 6, the maximum velocity and
+      acceleration of the cubic scaling. The quintic has other maxima
     peak-at-a-quarter: your function uses 5.625, the acceleration at a quarter of the
-      duration. The maximum is where the derivative of the acceleration is 0
+      duration. The maximum occurs where the derivative of the acceleration is 0
     """
     peaks = {
         "peak-of-the-cubic": {"speed": 1.5},
@@ -100,20 +100,20 @@ def _(delta_q, v_max, a_max):
       one of the limits
     shorter-of-two 2: each joint in your code takes the shorter of its two durations,
       which violates one of its limits
-    fastest-joint: your code returns the duration of the fastest joint, so all other
+    fastest-joint: your code returns the shortest duration of all joints, so the other
       joints violate their limits
-    fastest-joint 2: your code uses the duration of the fastest joint for each limit, so
-      the other joints violate their limits
-    one-length: your code uses the norm of delta_q as one displacement, but each joint
-      has its own displacement and its own limits
+    fastest-joint 2: your code uses the shortest duration of all joints for each limit,
+      so the other joints violate their limits
+    one-length: your code uses the norm of delta_q for all joints, but each joint has
+      its own displacement and its own limits
     summed: your code adds the durations of the joints, but the joints move at the same
-      time
+      time. Use the longest duration
     mean: your code returns the mean of the joints' durations, so the slower joints
       violate their limits
     longest-way: your code uses only the joint with the largest displacement. A joint
       with lower limits may need more time
-    one-limit-for-all: your code uses the limits of the first joint for all joints. Each
-      joint has its own limits
+    one-limit-for-all: your code uses the limits of the first joint for all joints, but
+      each joint has its own limits
     one-limit-for-all 2: your code uses the lowest limits for all joints, but each joint
       has its own limits
     speed-only: your code uses only the velocity limits, so a short motion exceeds the

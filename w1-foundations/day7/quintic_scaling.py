@@ -79,17 +79,18 @@ def _(t, T):
     6-and-10-swapped: your code swaps the coefficients 6 and 10. At the end s is 1, but
       the velocity is not 0
     sd-and-sdd-not-divided: your sd and sdd are derivatives with respect to x = t /
-      duration. By the chain rule, each derivative with respect to t also divides by the
-      duration
+      duration. By the chain rule, sd has to be divided by the duration, and sdd by its
+      square
     t-for-x: your code evaluates the polynomial at t instead of t / duration, so the
       duration has no effect
     not-divided+not-clipped: your code does not divide sd and sdd by the duration and
-      its square, and it continues the polynomial before the start and after the end
-    end-not-clipped: your code handles t < 0 but not t > duration, so the polynomial
-      continues after the end. For t > duration, use s = 1 with zero velocity and
+      its square, respectively, and it evaluates the polynomial before the start and
+      after the end
+    end-not-clipped: your code handles t < 0 but not t > duration, so it evaluates the
+      polynomial after the end. For t > duration, use s = 1 with zero velocity and
       acceleration, because the robot is at rest again
-    never-clipped: your code evaluates the polynomial before the start and after the end
-      as well. There the robot should be at rest
+    never-clipped: your code also evaluates the polynomial before the start and after
+      the end, but there the robot should be at rest
     start-not-clipped: your code handles t > duration but not t < 0, so it evaluates the
       polynomial before the start. For t < 0, use s = 0 with zero velocity and
       acceleration, because the robot is still at rest
@@ -111,13 +112,14 @@ def _(t, T):
 @row.wrongs
 def _(t, T):
     """sd-not-divided: your sd is the derivative with respect to x = t / duration. By
-      the chain rule, the derivative with respect to t also divides by the duration
+      the chain rule, the derivative with respect to t also has the factor 1 / duration
     sdd-not-divided: your sdd is the derivative with respect to x = t / duration. By the
-      chain rule, the derivative with respect to t also divides by the duration, twice
+      chain rule, the second derivative with respect to t also has the factor 1 /
+      duration^2
     sdd-divided-once: your code divides sdd by the duration only once, but sdd is a
       second derivative
-    multiplied-by-T: your code multiplies sd and sdd by the duration, but the chain rule
-      divides by it
+    multiplied-by-T: your code multiplies sd and sdd by the duration. By the chain rule,
+      it should divide instead
     only-s-clipped: your code clamps s at both ends, but not sd and sdd. They should be
       0 before the start and after the end
     """

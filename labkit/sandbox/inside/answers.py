@@ -98,6 +98,8 @@ class Answers:
             return {"missing": True}
         args = [self._argument(packed) for packed in call["args"]]
         value = function(*args)
+        if _complex(value) and not any(map(_complex, args)):
+            raise wire.UnsendableError("an array of dtype complex128; expected float64")
         reply = {"value": wire.pack_value(value, self.most)}
         names = _names(function, len(args))
         trio = zip(call["args"], args, names, strict=True)
@@ -190,6 +192,13 @@ def _arrays_of(value: Any) -> list[np.ndarray]:
         return [item for item in items if isinstance(item, np.ndarray)]
     parts = getattr(value, "__dict__", {}).values()  # a model's
     return [item for item in parts if isinstance(item, np.ndarray)]
+
+
+def _complex(value: Any) -> bool:
+    """Return whether a value is, or has, an array of complex numbers."""
+    numbers = isinstance(value, np.generic | complex)
+    some = [np.asarray(value)] if numbers else _arrays_of(value)
+    return any(one.dtype.kind == "c" for one in some)
 
 
 def _owner(memory: Any) -> int:

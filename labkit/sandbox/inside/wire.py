@@ -14,7 +14,7 @@ import numpy as np
 
 # A student's function may return these types. The list is wider than float64, since the
 # judge has words for an array of integers or of 32-bit floats.
-DTYPES = {"f2", "f4", "f8", "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "b1"}
+DTYPES = {"f2", "f4", "f8", "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "b1", "c16"}
 LARGEST, PARTS = 3_000_000, 100  # numbers in a question, results in an answer
 DEEP = 2  # the depth to which tuples of unlike things may be nested
 WHOLE = 2**63  # a number outside of 64 bits is refused
@@ -77,7 +77,8 @@ def pack_value(value: Any, most: int = LARGEST, deep: int = DEEP) -> Any:
         return {"number": value}
     if isinstance(value, np.ndarray):
         return {"array": pack_array(value, most)}
-    if isinstance(value, np.generic) and value.dtype.str[1:] in DTYPES:
+    plain = isinstance(value, np.generic) and value.dtype.kind != "c"
+    if plain and value.dtype.str[1:] in DTYPES:
         return {"number": value.item(), "dtype": value.dtype.str[1:]}
     if isinstance(value, str):
         return {"text": str(value[:LONGEST])}
