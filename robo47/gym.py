@@ -43,7 +43,7 @@ class Push(gymnasium.Env[Array, Array]):
         Args:
             render_mode: "rgb_array" for pictures from above, (128, 128, 3) bytes.
         """
-        if render_mode not in (None, *self.metadata["render_modes"]):
+        if render_mode not in (None, "rgb_array"):
             raise ValueError(f"render_mode is {render_mode!r}; expected 'rgb_array'")
         self.render_mode = render_mode
         self.observation_space = spaces.Box(-FAR, FAR, (4,), np.float64)

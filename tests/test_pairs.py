@@ -29,7 +29,7 @@ def test_a_reversed_chain_and_a_factor_on_the_wrong_side_are_told_together():
 
     says = told(2, "2.6", fk_space=fk_space)
     assert "in the reverse order" in says
-    assert "M is to the left of the exponentials" in says
+    assert "has M to the left" in says
 
 
 def test_two_answers_in_the_other_order_that_both_lack_a_term():
@@ -38,7 +38,8 @@ def test_two_answers_in_the_other_order_that_both_lack_a_term():
         return R_extra @ T_world_ee[:3, 3], R @ T_extra[:3, 3]
 
     says = told(1, "1.7", translations_both_orders=translations_both_orders)
-    assert "left factor is not added; the two translations are swapped" in says
+    assert "omits the translation of the left factor" in says
+    assert "are swapped" in says
 
 
 def test_one_mistake_that_gives_half_of_the_wrong_numbers_is_told_with_how_many():
@@ -51,7 +52,7 @@ def test_one_mistake_that_gives_half_of_the_wrong_numbers_is_told_with_how_many(
 
     says = told(8, "8.6", truncated_svd_fit=truncated_svd_fit)
     assert "One mistake explains 10 of your 14 wrong answers" in says
-    assert "your fit multiplies by the singular values" in says
+    assert "multiplies by the singular values" in says
     assert "This mistake does not explain the other 4." in says
 
 
@@ -86,8 +87,8 @@ def test_each_wrong_result_of_several_has_its_own_mistake():
         return kp * e + kd * ed + np.clip(ki * integral, -clamp, clamp), integral
 
     says = told(5, "5.7", pid_step=pid_step)
-    assert "In `pid_step`, the acceleration: ki times the integral is clamped" in says
-    assert "the integral is returned without the clamp" in says
+    assert "In `pid_step`, the acceleration: your code clamps ki times the integral" in says
+    assert "returns the unclamped integral" in says
 
 
 def test_an_argument_handed_back_is_not_one_of_two_mistakes():
@@ -129,7 +130,7 @@ def test_what_is_said_to_be_right_is_right_to_the_last_digit_that_counts():
         return R
 
     says = told(2, "2.2", exp_rotation=exp_rotation)
-    assert "R is not a rotation" in says
+    assert "R is no rotation" in says
     assert "between -pi / 3" not in says
 
 
@@ -159,7 +160,7 @@ def test_a_result_that_is_right_is_said_to_be():
         return rank, s[0] / np.mean(s[:rank]) + np.log(s[0])
 
     says = told(8, "8.5", rank_and_condition=rank_and_condition)
-    assert says.startswith("The rank is right. The condition number is off by ")
+    assert says.startswith("The rank is right. The condition number ")
 
 
 def test_two_arguments_exchanged_need_no_name():
@@ -188,7 +189,7 @@ def test_of_two_mistakes_only_what_the_function_does_is_told():
 
     says = told(14, "14.6", reward=reward)
     assert "Your code has two mistakes. First, " in says
-    assert " Second, your reward for NaN is 0. Largest error: 1. The reference " in says
+    assert " Second, your reward for NaN is 0" in says
     assert "because the simulation failed" not in says
 
 
