@@ -57,8 +57,8 @@ class TestAnIndex:
             (
                 lambda x, at: float(np.argmin(np.abs(x - at))),
                 "not-an-index",
-                "0; expected an index, a whole number: an array takes no other in "
-                "its brackets. Make it one: int(...).",
+                "0; expected an index, a whole number. Only a whole number can index "
+                "an array, so convert the result with int(...).",
             ),
             (lambda x, at: x, "shape", "returns shape (3,); expected an index"),
             (lambda x, at: "first", "not-an-array", "returns 'first'; expected"),

@@ -133,7 +133,7 @@ def test_what_is_said_to_be_right_is_right_to_the_last_digit_that_counts():
         return R
 
     says = told(2, "2.2", exp_rotation=exp_rotation)
-    assert "R is no rotation" in says
+    assert "R is not a rotation" in says
     assert "between -pi / 3" not in says
 
 
@@ -192,7 +192,7 @@ def test_of_two_mistakes_only_what_the_function_does_is_told():
 
     says = told(14, "14.6", reward=reward)
     assert "Your code has two mistakes. First, " in says
-    assert " Second, your reward of NaN is 0" in says
+    assert " Second, your reward for NaN is 0" in says
     assert "because the simulation failed" not in says
 
 

@@ -56,8 +56,8 @@ GENERAL = _mistakes(
       first
     inverse: your result is the inverse, the information matrix. It should be the
       covariance
-    sigma-for-variance: your entries are standard deviations, but a covariance has their
-      squares
+    sigma-for-variance: your entries are standard deviations, but a covariance contains
+      their squares
     halves-swapped: your two halves are swapped. The first should be {halves[0]}, the
       second {halves[1]}
     blocks-swapped: your blocks are in the order (v; omega), but omega comes first

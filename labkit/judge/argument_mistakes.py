@@ -35,12 +35,12 @@ def _only(some: slice, x: Any) -> Any:
 # Angles.
 DEGREES = Change(
     "degrees",
-    "your code converts {name} to degrees, but sine and cosine take radians",
+    "your code converts `{name}` to degrees, but sine and cosine take radians",
     np.rad2deg,
 )
 RADIANS_TWICE = Change(
     "radians-taken-for-degrees",
-    "your code converts {name} from degrees, but {name} is already in radians",
+    "your code converts `{name}` from degrees, but `{name}` is already in radians",
     np.deg2rad,
 )
 INTO_COS = DEGREES.called("degrees-into-cos")
@@ -49,12 +49,12 @@ OF_AN_ANGLE = (
     RADIANS_TWICE,
     Change(
         "half-angle",
-        "your code rotates by half of {name}, as in a quaternion",
+        "your code rotates by half of `{name}`, as in a quaternion",
         lambda x: x / 2,
     ),
     Change(
         "double-angle",
-        "your code rotates by twice {name}, but only a quaternion has half angles",
+        "your code rotates by twice `{name}`, but only a quaternion has half angles",
         lambda x: 2 * x,
     ),
 )
@@ -72,18 +72,18 @@ BACKWARDS = Change(
 # One entry for another, as an index or a loop does it.
 LEFT_OUT = Change(
     "joints-left-out",
-    "no joint moves in your code, so the result is always the pose at {name} = 0",
+    "no joint moves in your code, so the result is always the pose at `{name}` = 0",
     np.zeros_like,
 )
 FIRST_FOR_ALL = Change(
     "first-angle-for-all",
-    "every joint in your code uses {name}[0], but each joint has its own entry",
+    "every joint in your code uses `{name}[0]`, but each joint has its own entry",
     lambda x: np.repeat(x[:1], len(x), axis=0),
 )
 ONE_OFF = Change(
     "off-by-one-joint",
     "every joint in your code uses its neighbour's entry, because the index into "
-    "{name} is off by one",
+    "`{name}` is off by one",
     partial(np.roll, shift=1),
 )
 OF_ALL_JOINTS = (
@@ -105,8 +105,8 @@ OF_ALL_JOINTS = (
     ),
     Change(
         "first-joint-only",
-        "only the first joint has an effect in your code, as if return were inside the "
-        "loop",
+        "only the first joint has an effect in your code, as if `return` were inside "
+        "the loop",
         partial(_only, slice(1)),
     ),
     Change(
@@ -121,6 +121,6 @@ OF_ALL_JOINTS = (
 # Order within it.
 HALVES_SWAPPED = Change(
     "halves-swapped",
-    "your code swaps the halves of {name}. The angular half should come first",
+    "your code swaps the halves of `{name}`. The angular half should come first",
     partial(np.roll, shift=3, axis=0),
 )

@@ -37,8 +37,8 @@ def explain(S: Array, T: Array) -> Finding:
     )
     return Finding(
         "rounded-somewhere",
-        f"The result is close, but off by {about}, and rounding leaves about 1e-15. "
-        + why,
+        f"The result is close, but it is off by {about}. Rounding alone would leave "
+        "about 1e-15. " + why,
     )
 
 
@@ -131,7 +131,7 @@ def one_rule(S: Array, T: Array, wrong: Array) -> str:
     if np.abs(off - off[0]).max() <= near and np.ptp(T, axis=0).max() > near:
         return (
             f" The error is the same in every call, {np.abs(off).max():.3g} in one "
-            "entry: a constant term is missing, or one too many."
+            "entry: a constant term is missing, or there is one too many."
         )
     limit = float(np.abs(S).max())
     cut = np.abs(S - np.clip(T, -limit, limit)).max() <= near

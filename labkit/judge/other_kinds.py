@@ -140,8 +140,8 @@ class Index(Count):
             array = np.asarray(value if one else 0)
             if array.ndim == 0 and array.dtype.kind not in "iu":
                 says = f"Your function returns {value!r}; "
-                says += f"expected {self.expected}: an array "
-                says += "takes no other in its brackets. Make it one: int(...)."
+                says += f"expected {self.expected}. Only a whole number can index an "
+                says += "array, so convert the result with int(...)."
                 return Finding("not-an-index", says)
         return super().read(values)
 

@@ -19,11 +19,11 @@ from labkit.lesson.starter import function_lines
 from robo47.checks import Array
 from robo47.paths import ROOT
 
-ONLY_NUMPY = " The checker has NumPy, the kit and Python's own modules alone."
+ONLY_NUMPY = " The checker has only NumPy, the kit and Python's own modules."
 ONLY_IN_MAIN = (
     "A task is solved with NumPy, the kit's library and Python's own modules, so the "
-    "checker has no other package. Use others in main(), where pictures belong: the "
-    "checker does not run it."
+    "checker has no other package. Use others in main(), for example for pictures, "
+    "because the checker does not run main()."
 )
 IN_MAIN = 'Keep it below `if __name__ == "__main__":`, or in main().'
 SAME = 1e-9  # how far two answers to one question may differ: a last digit
@@ -89,7 +89,7 @@ def stops_with(reply: Reply, often: str = "") -> str:
     text = f"{reply.kind}: {reply.error}".rstrip().removesuffix(":")
     why = f" {ONLY_IN_MAIN}" if reply.kind == "ModuleNotFoundError" else ""
     if reply.kind == "EOFError":
-        why = " Does it call input()? Nobody types during a check: use its arguments."
+        why = " Does it call input()? Nobody types during a check: use the arguments."
     return f"Your function stops with {text}{where}{often}.{why}"
 
 

@@ -116,7 +116,7 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
         size = "" if worst == "1" else f"; det R is {worst}, not 1"
         return Finding(
             "not-orthonormal",
-            "R is no rotation: its columns are not unit vectors at right angles. "
+            "R is not a rotation: its columns are not unit vectors at right angles. "
             f"(R R^T differs from I by {off:.2g}{size}.)",
         )
     X = np.abs(T.mT @ S)

@@ -137,7 +137,7 @@ def _other_loops(body: Lines, at: int, loop: Any) -> Iterator[tuple[ast.stmt, st
     for line in body[:at]:
         if isinstance(line, ast.Assign) and carried & _stored([line]):
             reset = _with(loop, [line, *loop.body])
-            yield reset, "a loop starts anew in every pass"
+            yield reset, "a value is reset in every pass of a loop"
             stale = _with(loop, _stale(loop.body, line))
             yield stale, "a loop uses a value from before the loop in every pass"
 

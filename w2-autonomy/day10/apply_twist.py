@@ -62,13 +62,13 @@ def _(T, xi):
       exponential
     t-not-turned: your code does not rotate t, but a rotation about the origin moves t
       as well
-    v-as-translation: your translation of the exponential is v, which is correct only if
+    v-as-translation: the translation in your exponential is v, which is correct only if
       omega is 0 or parallel to v
     length-lost: your code normalises xi and uses the angle 1, but the angle is the norm
       of omega
-    slides-left-out: if omega is 0, your code returns T unchanged, but the translation
-      is then v
-    identity-where-still: for xi = 0 your code returns the identity. Return T
+    slides-left-out: if omega is 0, your code returns T unchanged. The motion is then a
+      translation by v
+    identity-where-still: your code returns the identity for xi = 0. Return T
     turns-only: your code does not use v, the linear part of xi
     slides-only: your code does not use omega, the angular part of xi
     """

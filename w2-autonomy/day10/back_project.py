@@ -94,7 +94,7 @@ for slug, says, other in (
                          "of the image, and the principal point is measured from there",
      {"pixel": lambda uv: uv - 0.5}),
     ("depth-only-in-z", "your code multiplies only z by the depth, but x and y are "
-                        "also proportional to the depth",
+                        "proportional to the depth as well",
      {"scaled": lambda ray, d: np.hstack([ray[:, :2], d])}),
     ("depth-added", "your code adds the depth to z. Multiply the whole ray by it",
      {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
@@ -108,11 +108,11 @@ for slug, says, other in (
      {"scaled": not_scaled, "moved": lambda R, t, p, d: d * (p @ R.T + t)}),
     ("T-forgotten", "your points are in the camera frame. Transform them to the world "
                     "frame", {"moved": lambda R, t, p, d: p}),
-    ("half-inverted", "your code transposes R and subtracts t. This result is neither "
-                      "T p nor T^-1 p, which is R^T (p - t)",
+    ("half-inverted", "your code computes R^T p - t, which is neither T p nor T^-1 "
+                      "p. The product T p is R p + t",
      {"moved": lambda R, t, p, d: p @ R - t}),
-    ("t-before-R", "your code adds the translation before the rotation, but T p is R p "
-                   "+ t", {"moved": lambda R, t, p, d: (p + t) @ R.T}),
+    ("t-before-R", "your code adds the translation before it rotates the point, but "
+                   "T p is R p + t", {"moved": lambda R, t, p, d: (p + t) @ R.T}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(placed, **other))
 

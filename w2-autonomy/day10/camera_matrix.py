@@ -36,10 +36,10 @@ def _(fovy, width, height):
       its corner
     centre-at-0: your principal point is (0, 0). It should be the centre of the image
     centre-whole: your principal point is (width, height). It should be the centre of
-      the image, half of both
+      the image, at half of each
     y-up: your second focal length is negative, but v and y both point down
-    whole-division: your operator // rounds half of an odd number of pixels down. The
-      centre of 353 pixels is at 176.5
+    whole-division: your code uses the operator //, which rounds half of an odd number
+      down. The centre of 353 pixels is at 176.5
     """
     f = height / 2 / np.tan(fovy / 2)
     fw = width / 2 / np.tan(fovy / 2)

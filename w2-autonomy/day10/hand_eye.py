@@ -44,9 +44,10 @@ def _(rng):  # two of the motions rotate by less than 0.2 rad
 
 
 @row.valid(
-    "Your result is correct for exact motions. With noise, no X fits all motions, and "
-    "each method returns another X. Use the rotation nearest to the sum of a b^T of "
-    "the rotation vectors, as in kabsch, and then the least-squares t for it."
+    "Your result is correct for exact motions. With noise, no X fits all motions, so "
+    "the result depends on the method. Use the rotation that is nearest to the sum "
+    "of a b^T over the rotation vectors, as in kabsch, and then the least-squares t "
+    "for this rotation."
 )
 def _(A, B, X):
     return np.abs(A @ X - X @ B).max() < 1e-8
@@ -108,8 +109,8 @@ def solved(
 
 
 for slug, says, other in (
-    ("mirror", "your code does not check the determinant, but for axes near one plane "
-               "U V^T may be a reflection",
+    ("mirror", "your code does not check the determinant, but U V^T may be a "
+               "reflection if the axes lie nearly in one plane",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
     ("mirror-turned-round", "where U V^T is a reflection, your rotation is its "
                             "negative. Negate only the direction of the smallest "
@@ -149,7 +150,7 @@ def _(A, B):
       mean. One motion does not determine t along its own axis, so stack the equations
       of all motions
     centred-the-other-way: your code subtracts the means and transposes the rotation, as
-      kabsch(a, b) gives it. The model a = R b has no translation
+      in kabsch(a, b). The model a = R b has no translation
     t-as-if-alike: your t is the mean of t_A - R t_B, as if the hand did not rotate.
       This difference is -(R_A - I) t
     t-as-if-alike 2: your t is the mean of R t_B - t_A, as if the hand did not rotate.

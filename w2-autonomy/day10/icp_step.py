@@ -39,10 +39,10 @@ def once_each(away):
 
 @row.wrongs
 def _(T, source, target):
-    """step-alone: your result is the motion from the transformed source. Return the
-      whole motion, from the source itself
-    step-on-the-right: your step multiplies T on the right. It is applied after T, so it
-      belongs on the left
+    """step-alone: your result is the motion of the transformed source. Return the
+      motion of the source itself
+    step-on-the-right: your code multiplies T by the step on the right. The step is
+      applied after T, so it belongs on the left
     step-twice: your code applies T twice. The motion is fitted to the source itself, so
       it already contains T
     step-twice 2: your code applies T twice. The motion is fitted to the source itself,
@@ -53,11 +53,11 @@ def _(T, source, target):
       Fit all pairs
     each-once: your code uses each target point at most once, but several source points
       may have the same nearest target point
-    in-the-plane: your code compares only x and y for the nearest point. Use all three
+    in-the-plane: your code uses only x and y to find the nearest point. Use all three
       coordinates
     pairs-of-the-target: your code pairs each target point with the nearest source
       point. Pair each source point with the nearest target point
-    first-to-first: your code pairs the points by their order. Pair each source point
+    first-to-first: your code pairs the points by their indices. Pair each source point
       with the nearest target point
     T-unchanged: your output is T itself. Fit the motion from the source to the pairs
     """

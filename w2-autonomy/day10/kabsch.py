@@ -64,8 +64,8 @@ def all_turned(U, Vt):
 
 
 for slug, says, other in (
-    ("mirror", "your code does not check the determinant, but with noise or for "
-               "mirrored points U V^T may be a reflection",
+    ("mirror", "your code does not check the determinant, but U V^T may be a "
+               "reflection if the points are noisy or mirrored",
                {"rotation": lambda U, Vt: U @ Vt}),
     ("mirror-turned-round", "where U V^T is a reflection, your rotation is its "
                             "negative. Negate only the direction of the smallest "
@@ -82,19 +82,20 @@ for slug, says, other in (
     ("always-turned-round", "your code always negates the third direction. Negate it "
                             "only if U V^T is a reflection",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
-    ("R-transposed", "your code transposes the rotation. It should map the source to "
-                     "the target, so it is U V^T of target^T source",
+    ("R-transposed", "your code transposes the rotation. The rotation should map the "
+                     "source to the target, so it is U V^T of target^T source",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
-    ("worst-fit", "your R is the rotation with the largest sum of squares, not the "
-                  "smallest. Either a sign is wrong, or the eigenvector belongs to the "
-                  "smallest eigenvalue", {"rotation": lambda U, Vt: proper(-U, Vt)}),
+    ("worst-fit", "your R is the rotation with the largest sum of squared distances, "
+                  "not the smallest. Either a sign is wrong, or your eigenvector "
+                  "belongs to the smallest eigenvalue",
+     {"rotation": lambda U, Vt: proper(-U, Vt)}),
     ("not-centred", "your code does not subtract the centroids before the SVD",
      {"centre": lambda X: np.zeros(3)}),
-    ("one-number-for-the-centre", "your centroid is the mean of all coordinates "
+    ("one-number-for-the-centre", "your centroid is one mean of all coordinates "
                                   "together. Use axis=0 for one mean per coordinate",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
     ("about-the-first", "your code subtracts the first points instead of the "
-                        "centroids, but their noise changes the rotation",
+                        "centroids, so the noise of one pair changes the rotation",
      {"centre": lambda X: X[0]}),
     ("scaled", "your R contains a scale factor. A rigid motion preserves distances, so "
      "R should be a pure rotation",
@@ -107,11 +108,11 @@ for slug, says, other in (
 
 @row.wrongs
 def _(source, target):
-    """t-of-the-first: your translation fits the first pair only. Use the centroids
-    first-for-centre: your code uses the first points instead of the centroids, but
-      their noise changes the fit
-    affine: your function fits an affine map by least squares, which need not be a
-      rotation
+    """t-of-the-first: your translation fits only the first pair. Use the centroids
+    first-for-centre: your code uses the first points instead of the centroids, so the
+      noise of one pair changes the fit
+    affine: your function fits an affine map by least squares, but its matrix need not
+      be a rotation
     """
     R = kabsch(source, target)[:3, :3]
     one = np.hstack([source, np.ones((len(source), 1))])

@@ -46,9 +46,9 @@ for slug, says, other in (
     ("reshaped-across", "your code reshapes J to (6, 2 n), which mixes its rows. J has "
                         "one row per pixel coordinate, so its shape is (2 n, 6)",
      {"rows": lambda J: J.reshape(6, -1).T}),
-    ("u-alone", "your code uses only the rows of u, but the rows of v contain "
+    ("u-alone", "your code uses only the rows for u, but the rows for v contain "
                 "information as well", {"rows": lambda J: J[:, 0]}),
-    ("v-alone", "your code uses only the rows of v, but the rows of u contain "
+    ("v-alone", "your code uses only the rows for v, but the rows for u contain "
                 "information as well", {"rows": lambda J: J[:, 1]}),
     ("sigma-for-variance", "your code takes the square root of each entry, but a "
                            "covariance contains variances, for example in rad^2",
@@ -66,7 +66,7 @@ def _(J, sigma):
       covariance is its inverse
     by-what-is-left: your code divides the result by 2 n - 6 degrees of freedom, but
       this division belongs to the estimate of an unknown sigma
-    each-point-alone: your code adds the covariances of the single points. Add their
+    each-point-alone: your code adds the covariances of the individual points. Add their
       information matrices J^T J
     """
     rows = rows_of(J)

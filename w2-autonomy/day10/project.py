@@ -55,15 +55,15 @@ def swapped(K):
 
 
 for slug, says, other in (
-    ("half-inverted", "your code transposes R and subtracts t. This result is neither "
-                      "T p nor T^-1 p, which is R^T (p - t)",
+    ("half-inverted", "your code computes R^T p - t, which is neither T p nor T^-1 "
+                      "p. The product T p is R p + t",
      {"moved": lambda R, t, x: x @ R - t}),
     ("T-forgotten", "your code does not use T_cam_world. The points are in the world "
                     "frame, so transform them to the camera frame",
      {"moved": lambda R, t, x: x}),
-    ("t-before-R", "your code adds the translation before the rotation, but T p is R p "
-                   "+ t", {"moved": lambda R, t, x: (x + t) @ R.T}),
-    ("centre-before-dividing", "your code adds the principal point before the division "
+    ("t-before-R", "your code adds the translation before it rotates the point, but "
+                   "T p is R p + t", {"moved": lambda R, t, x: (x + t) @ R.T}),
+    ("centre-before-dividing", "your code adds the principal point before it divides "
                                "by the depth. Add it after the division",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2], p[:, 2]])}),
@@ -116,7 +116,8 @@ for slug, says, other in (
 
 @row.wrong
 def K_before_T(K, T_cam_world, points):
-    """your code applies K before T, but T maps points in metres, not pixels"""
+    """your code applies K before T, but T maps points in metres, not pixels. Apply T
+    first"""
     p = points @ K.T @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]
     return p[:, :2] / p[:, 2:]
 

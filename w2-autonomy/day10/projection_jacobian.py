@@ -109,30 +109,32 @@ for slug, says, other in (
     ("f-forgotten", "your code omits the focal lengths, so your entries are the "
                     "derivatives of x / z, which has no unit",
      {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
-    ("centre-in-the-slope", "your derivatives with respect to z contain the principal "
-                            "point, but it is a constant, so its derivative is 0",
+    ("centre-in-the-slope", "your derivatives with respect to z contain the "
+                            "principal point, but the principal point is constant, "
+                            "so its derivative is 0",
      {"pixel": with_the_centre}),
-    ("x-for-y", "your row of v has x in its derivative with respect to z. This entry "
-                "should be -f y / z^2", {"pixel": with_one_name(1, 0)}),
-    ("y-for-x", "your row of u has y in its derivative with respect to z. This entry "
-                "should be -f x / z^2", {"pixel": with_one_name(0, 1)}),
+    ("x-for-y", "your row for v has x in its derivative with respect to z. This "
+                "entry should be -f y / z^2", {"pixel": with_one_name(1, 0)}),
+    ("y-for-x", "your row for u has y in its derivative with respect to z. This "
+                "entry should be -f x / z^2", {"pixel": with_one_name(0, 1)}),
     ("first-columns-not-divided", "your code does not divide the derivatives with "
                                   "respect to x and y by z. They should be f / z",
      {"pixel": lambda K, p: by_point(
          K, p) * np.where([True, True, False], depth(p, 1), 1.0)}),
     ("pixels-for-x-and-y", "your derivatives with respect to z use the pixel (u, v). "
                            "Use x and y in the camera frame", {"pixel": of_the_pixel}),
-    ("range-for-depth", "your derivatives use the distance of the point. Use its depth "
-                        "z", {"pixel": lambda K, p: by_point(
+    ("range-for-depth", "your derivatives use the distance of the point from the "
+                        "camera. Use its depth z", {"pixel": lambda K, p: by_point(
          K, np.column_stack([p[:, :2], np.linalg.norm(p, axis=1)]))}),
     ("halves-swapped",
      "your columns are in the order (v; omega), but omega comes first",
      {"told": lambda J: J[..., HALF]}),
-    ("rotation-sign", "your columns of omega have the wrong sign, because omega x p is "
-                      "-[p] omega", {"twist": lambda p: by_twist(p, 1.0)}),
-    ("camera-moves", "your code reverses every sign, as for a camera that moves, but "
-                     "the twist is of the object", {"told": np.negative}),
-    ("y-up", "your row of v has the wrong sign, but y and v both point down",
+    ("rotation-sign", "your columns for omega have the wrong sign. The velocity "
+                      "omega x p is equal to -[p] omega",
+     {"twist": lambda p: by_twist(p, 1.0)}),
+    ("camera-moves", "your code reverses every sign, as for a moving camera, but xi "
+                     "is the twist of the object", {"told": np.negative}),
+    ("y-up", "your row for v has the wrong sign. Both y and v point down",
      {"told": lambda J: J * [[1], [-1]]}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(jacobian, **other))
@@ -140,10 +142,10 @@ for slug, says, other in (
 
 @row.wrongs(hidden=dict.fromkeys(ONE_FOCAL_LENGTH, "the lab's camera has fx = fy"))
 def _(K, p_cam):
-    """fx-in-both-rows: your row of v uses fx. It should use fy, K[1, 1]
-    fx-in-both-rows 2: your columns of omega in the row of v use fx. They should use fy,
-      K[1, 1]
-    fy-in-both-rows: your row of u uses fy. It should use fx, K[0, 0]
+    """fx-in-both-rows: your row for v uses fx. It should use fy, K[1, 1]
+    fx-in-both-rows 2: your columns for omega in the row for v use fx. They should use
+      fy, K[1, 1]
+    fy-in-both-rows: your row for u uses fy. It should use fx, K[0, 0]
     coordinates-not-divided: your code uses the formula for normalised coordinates with
       x and y in metres. Divide both by z first
     """

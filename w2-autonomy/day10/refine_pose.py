@@ -105,9 +105,9 @@ for slug, says, other in (
     ("twist-halves-swapped", "your code uses the step as (v; omega), but the columns "
                              "of J begin with omega",
      {"move": lambda T, xi: apply_twist(T, np.roll(xi, 3))}),
-    ("body-twist", "your code multiplies T by each step on the right. The twists of J "
-                   "are expressed in the camera frame, so the exponential belongs on "
-                   "the left",
+    ("body-twist", "your code multiplies T by each step on the right. The columns of "
+                   "J belong to twists in the camera frame, so the exponential "
+                   "belongs on the left",
      {"move": on_the_right}),
     ("first-order", "each step in your code is T + [xi] T, so R is no longer a "
                     "rotation. Use the exponential", {"move": first_order}),
@@ -118,17 +118,19 @@ for slug, says, other in (
                             {"since": lambda T, guess: guess}),
     ("half-steps", "your code halves each step, so ten steps leave a thousandth of the "
                    "error. Use the whole step", {"factor": 0.5}),
-    ("rows-mixed", "your rows of J are in the order all u, then all v, but your errors "
-                   "are in another order", {"solve": mixed}),
-    ("error-mixed", "your errors are in the order all u, then all v, but your rows of "
-                    "J are in another order", {"solve": mixed_off}),
+    ("rows-mixed", "the rows of your J are in the order all u, then all v, but your "
+                   "errors are in another order. Use the same order for both",
+     {"solve": mixed}),
+    ("error-mixed", "your errors are in the order all u, then all v, but the rows of "
+                    "your J are in another order. Use the same order for both",
+     {"solve": mixed_off}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(steps, **other))
 
 
 @row.wrongs
 def _(K, T_guess, points, pixels):
-    """guess-returned: your output is the guess itself. Does your loop change T?"""
+    """guess-returned: your output is the guess itself. Does your loop update T?"""
     return {"guess-returned": T_guess}
 
 

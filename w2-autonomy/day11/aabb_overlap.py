@@ -131,10 +131,10 @@ def _(rng):
 def _(box_a, box_b):
     """any-for-all: in your code, overlap on one axis is enough, but two boxes overlap
       only if their intervals overlap on all three axes
-    one-direction: your code makes only one of the two comparisons, so it misses a box_b
-      that lies above box_a
-    one-direction 2: your code makes only one of the two comparisons, so it misses a
-      box_b that lies below box_a
+    one-direction: your code makes only one of the two comparisons, so it reports an
+      overlap if box_b lies above box_a
+    one-direction 2: your code makes only one of the two comparisons, so it reports an
+      overlap if box_b lies below box_a
     touching-left-out: your code reports boxes that only touch as separate. It should
       report them as overlapping
     touching-left-out 2: your code reports boxes that touch on one side as separate. It
@@ -197,10 +197,10 @@ def _(box_a, box_b):
       have a positive product
     volume 2: your code tests the product of the three overlaps, but two negative
       overlaps have a positive product
-    sum-of-overlaps: your code adds the overlaps of the three axes, but each of them
-      must be 0 or more
+    sum-of-overlaps: your code adds the overlaps of the three axes, but each overlap
+      must be at least 0
     nearly-touching: your code reports an overlap for boxes with a small gap, but such
-      boxes are apart
+      boxes do not overlap
     always: your code always returns True. Compare the intervals on all three axes
     never: your code always returns False. Compare the intervals on all three axes
     """

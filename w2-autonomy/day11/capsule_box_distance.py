@@ -135,20 +135,20 @@ def _(a0, a1, r, T_world_box, half_extents):
       always keeps the lower part
     middle-only: your code tests only the midpoint of the axis, but the nearest point
       can be anywhere on it
-    five-points: your code tests only some points of the axis, but the nearest point
-      lies between them
+    five-points: your code tests only some points of the axis, but the nearest point can
+      lie between them
     five-points 2: your code tests only some points of the axis, but the nearest point
-      lies between them
+      can lie between them
     three-points: your code tests only the ends and the midpoint of the axis, but the
       nearest point can lie between them
     eleven-points: your code tests only some points of the axis, but the nearest point
-      lies between them
+      can lie between them
     eleven-points 2: your code tests only some points of the axis, but the nearest point
-      lies between them
+      can lie between them
     nearest-to-the-centre: your code uses the point of the axis nearest to the centre of
       the box. Another point can be nearer to a face
-    world-axes: your ends are translated to the box but not rotated into its frame. Use
-      R^T (x - t)
+    world-axes: your code translates the ends to the box, but it does not rotate them
+      into the box frame. Use R^T (x - t)
     turned-the-other-way: your code multiplies the ends by R. Use R^T to express them in
       the box frame
     pose-not-inverted: your code applies T_world_box directly, but it maps from the box
@@ -156,10 +156,10 @@ def _(a0, a1, r, T_world_box, half_extents):
     place-forgotten: your code rotates the ends but does not translate them. Subtract
       the position of the box first
     turned-then-moved: your code subtracts the position of the box after the rotation.
-      Subtract it first, R^T (x - t)
-    t-added: your code adds the position of the box. Subtract it, R^T (x - t)
-    radius-forgotten: your code omits the radius, so the result is the distance of the
-      axis
+      Subtract it first: R^T (x - t)
+    t-added: your code adds the position of the box. Subtract it: R^T (x - t)
+    radius-forgotten: your code omits the radius, so the result is the distance from the
+      axis to the box
     radius-added: your code adds the radius. Subtract it
     radius-to-the-box: your code enlarges the box by the radius, which keeps its corners
       sharp. Subtract the radius from the distance
@@ -175,10 +175,10 @@ def _(a0, a1, r, T_world_box, half_extents):
       its own half extent
     ends-left-out: your search never tests the ends of the axis. Start with the whole
       interval [0, 1]
-    never-negative: for shapes that overlap your code returns 0, but the signed distance
-      is negative
-    sign: your code reverses the sign. The distance should be positive for shapes that
-      do not overlap
+    never-negative: your code returns 0 for shapes that overlap, but their signed
+      distance is negative
+    sign: your result has the opposite sign. The distance should be positive for shapes
+      that do not overlap
     outside-only: in your code, an axis that enters the box gets distance 0. Use the
       negative value from `box_sdf`, then subtract r
     as-a-line: your search goes beyond the ends of the axis, but its parameter should
@@ -203,8 +203,8 @@ def _(a0, a1, r, T_world_box, half_extents):
       its own half extent
     largest-half 2: your code uses the largest half extent on every axis. Each axis has
       its own half extent
-    sides-exchanged: your code swaps x and y of half_extents
-    sides-exchanged 2: your code swaps x and y of half_extents
+    sides-exchanged: your code swaps the x and y entries of half_extents
+    sides-exchanged 2: your code swaps the x and y entries of half_extents
     box-around-it: your code replaces the rotated box by its axis-aligned bounding box.
       Express the ends in the box frame instead
     half-turned: your code rotates half_extents, but it contains lengths, so rotate the
@@ -217,11 +217,12 @@ def _(a0, a1, r, T_world_box, half_extents):
       plane of a face, but the nearest point can be another one
     point-to-box-in-turn: your code alternates between the nearest point of the box and
       the nearest point of the axis, but it stops after too few steps
-    one-section: your search makes only one step, which leaves 0.618 of the axis
+    one-section: your search makes only one step, which leaves 0.618 of the axis. Repeat
+      the step
     radius-times-the-length: your code multiplies the radius by the length of the axis.
       Subtract r itself
     share-returned: your code returns the parameter s of the nearest point. Return the
-      distance there
+      distance at this point
     five-sections: your search stops too early. Each step only reduces the interval to
       0.618 of its length
     five-sections 2: your search stops too early. Each step only reduces the interval to

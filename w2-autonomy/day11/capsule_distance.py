@@ -90,17 +90,17 @@ def _(a0, a1, ra, b0, b1, rb):
     twice-the-radii: your code subtracts twice each radius. Subtract each radius once
     radii-differ: your code subtracts the difference of the radii. Subtract their sum
     radii-differ 2: your code subtracts the difference of the radii. Subtract their sum
-    larger-radius: your code subtracts only the larger radius. Subtract both
+    larger-radius: your code subtracts only the larger radius. Subtract both radii
     radii-multiplied: your code subtracts the product of the radii. Subtract their sum
-    never-negative: for capsules that overlap your code returns 0, but the signed
+    never-negative: your code returns 0 for capsules that overlap, but their signed
       distance is negative
     sign-lost: your code takes the absolute value, so capsules that overlap get a
       positive distance
     squared: your code omits the square root, so it uses the squared distance between
       the axes
     squared 2: your code subtracts squares. Subtract the radii from the distance itself
-    sign: your code reverses the sign. The distance should be positive for capsules that
-      do not overlap
+    sign: your result has the opposite sign. The distance should be positive for
+      capsules that do not overlap
     of-middles: your code uses the midpoints of the axes as the closest points, but the
       closest points can be anywhere on the axes
     of-starts: your code uses the starts of the axes as the closest points, but the
@@ -121,11 +121,11 @@ def _(a0, a1, ra, b0, b1, rb):
     ends-and-middles: your code tests only the ends and the midpoints of both axes, but
       the closest points can lie anywhere between the ends
     same-share: your code uses the same fraction of the length on both axes, but each
-      closest point has its own
+      closest point has its own fraction
     twice-the-larger: your code subtracts the larger radius twice. Subtract the radius
       of each capsule once
-    radii-as-sides: your code combines the radii as sqrt(ra^2 + rb^2), but both lie
-      along the same line, so add them
+    radii-as-sides: your code combines the radii as sqrt(ra^2 + rb^2), but both radii
+      lie along the same line, so add them
     root-of-squares: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
       tangent. The distance is |p - o| - (ra + rb)
     root-of-squares 2: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
@@ -137,33 +137,34 @@ def _(a0, a1, ra, b0, b1, rb):
       the norm
     mean-square: your code takes the root of the mean of the squares. Take the root of
       their sum
-    lengths-differ: your code subtracts the norms of p and o. Take the norm of p - o
+    lengths-differ: your code uses the difference of the norms of p and o. Take the norm
+      of p - o
     cut-once: your code clamps the distance at 0 between the subtractions of ra and rb.
       Do not clamp it
-    one-number-inside: for capsules that overlap your code always returns -1. The result
-      should depend on the penetration depth
-    one-number-inside 2: for capsules that overlap your code returns minus the smaller
+    one-number-inside: for capsules that overlap, your code always returns -1. The
+      result should depend on the penetration depth
+    one-number-inside 2: for capsules that overlap, your code returns minus the smaller
       radius. The result should depend on the penetration depth
-    axes-inside: for capsules that overlap your code returns minus the distance between
-      the axes. Subtract the radii from it
+    axes-inside: for capsules that overlap, your code returns minus the distance between
+      the axes. Subtract the radii from this distance
     ends-only: your code assumes that one of the closest points is an end, but both
       points can lie between the ends
-    ends-only 2: your code tests only the ends of the first axis, but its closest point
-      can lie between them
-    ends-only 3: your code tests only the ends of the second axis, but its closest point
-      can lie between them
-    sampled: your code tests only some points of each axis, but the closest points lie
-      between them
-    sampled 2: your code tests only some points of each axis, but the closest points lie
-      between them
-    sampled 3: your code tests only some points of each axis, but the closest points lie
-      between them
-    sampled 4: your code tests only some points of each axis, but the closest points lie
-      between them
+    ends-only 2: your code tests only the ends of the first axis, but the closest point
+      of this axis can lie between them
+    ends-only 3: your code tests only the ends of the second axis, but the closest point
+      of this axis can lie between them
+    sampled: your code tests only some points of each axis, but the closest points can
+      lie between them
+    sampled 2: your code tests only some points of each axis, but the closest points can
+      lie between them
+    sampled 3: your code tests only some points of each axis, but the closest points can
+      lie between them
+    sampled 4: your code tests only some points of each axis, but the closest points can
+      lie between them
     lines: your code treats the axes as infinite lines. Clamp the closest points to the
-      ends
+      axes
     grown-axes: your code extends each axis by the radius at both ends and also
-      subtracts the radius. Subtract the radius only
+      subtracts the radius. Only subtract the radius
     starts-and-ends: your code uses the segments from a0 to b0 and from a1 to b1. The
       axes run from a0 to a1 and from b0 to b1
     in-the-plane: your code does not use z in the distance. Use all three coordinates

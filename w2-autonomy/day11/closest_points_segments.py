@@ -16,8 +16,8 @@ row = Row(
     held_out=[
         HeldOut(
             "parallel-not-handled",
-            "Your result is wrong for some parallel segments. For them a c - b b is 0, "
-            "so the s of the lines is 0 / 0. Start with any s, then compute t and "
+            "Your result is wrong for some parallel segments. For them, a c - b b is "
+            "0, so the s of the lines is 0 / 0. Start with any s, then compute t and "
             "clamp it, and then compute s for this t and clamp it.",
             lambda rng: pairs.arrays(pairs.PARALLEL),
         ),
@@ -36,8 +36,8 @@ row = Row(
         ),
         HeldOut(
             "point-not-handled",
-            "Your result is wrong if a segment is a point, because its length is 0. "
-            "Avoid 0 / 0 by using any value of its parameter, and then clamp the "
+            "Your result is wrong if a segment is a point, that is, if its length is "
+            "0. Avoid 0 / 0 by using any value of its parameter, and then clamp the "
             "parameter of the other segment.",
             lambda rng: pairs.arrays(pairs.POINTS),
         ),
@@ -73,16 +73,18 @@ def _(rng):
 def _(a0, a1, b0, b1):
     """not-clamped: your code does not clamp s and t to [0, 1], so the points can lie
       beyond the ends of the segments
-    clamped-apart: your code clamps s and t independently, but after one of them is
-      clamped, the best value of the other changes
-    s-not-again: your code does not recompute s after it clamps t, but the best s
+    clamped-apart: your code clamps s and t independently, but clamping one of them
+      changes the optimal value of the other
+    s-not-again: your code does not recompute s after it clamps t, but the optimal s
       depends on t
-    s-not-again 2: your code does not recompute t after it clamps s, but the best t
+    s-not-again 2: your code does not recompute t after it clamps s, but the optimal t
       depends on s
     s-not-again 3: your code does not recompute t after the last clamp of s, but the
-      best t depends on s
-    t-not-cut: your code never clamps t, so its point can lie beyond an end
-    s-not-cut: your code never clamps s, so its point can lie beyond an end
+      optimal t depends on s
+    t-not-cut: your code never clamps t, so the point of the second segment can lie
+      beyond an end
+    s-not-cut: your code never clamps s, so the point of the first segment can lie
+      beyond an end
     cut-below-only: your code clamps s and t at 0 but not at 1, so the points can lie
       beyond the ends
     cut-above-only: your code clamps s and t at 1 but not at 0, so the points can lie
@@ -96,8 +98,8 @@ def _(a0, a1, b0, b1):
     w-sign: your w has the wrong sign. It should run from the start of the second
       segment to the start of the first, a0 - b0
     d-and-e-swapped: your code swaps d and e, but d = u . w belongs to the first segment
-    numerator-sign: your numerator of s has the wrong sign. The parameter s should be (b
-      e - c d) / (a c - b b)
+    numerator-sign: your numerator for s has the wrong sign. The parameter s should be
+      (b e - c d) / (a c - b b)
     b-sign: your b has the wrong sign. The derivatives are a s - b t + d and b s - c t +
       e
     across-plus: your denominator is a c + b b. It should be a c - b b, which is 0 for
@@ -117,38 +119,41 @@ def _(a0, a1, b0, b1):
       from a0 and b0
     t-from-the-end: your code measures t from b1. Measure it from b0
     s-from-the-end: your code measures s from a1. Measure it from a0
-    unit-directions: your code normalises u and v, so s and t are in metres, but it
-      clamps them to [0, 1]
+    unit-directions: your code normalises u and v, so s and t are in metres, but your
+      code clamps them to [0, 1]
     nearest-to-the-middle: your code returns the midpoint of the second segment and the
-      point of the first that is nearest to it
+      point of the first that is nearest to this midpoint. Compute both closest points
     sampled: your code tests only some points of each segment, but the closest points
-      lie between them
+      can lie between them
     sampled 2: your code tests only some points of each segment, but the closest points
-      lie between them
+      can lie between them
     sampled 3: your code tests only some points of each segment, but the closest points
-      lie between them
+      can lie between them
     ends-where-cut: where s or t of the lines lies outside [0, 1], your code returns the
       nearest pair of ends. One of the closest points can still lie between the ends
     ends-where-cut 2: where s or t of the lines lies outside [0, 1], your code tests
-      only the ends of the first segment. Test the ends of the second too
+      only the ends of the first segment. Test the ends of the second segment too
     ends-where-cut 3: where s or t of the lines lies outside [0, 1], your code tests
-      only the ends of the second segment. Test the ends of the first too
+      only the ends of the second segment. Test the ends of the first segment too
     start-where-cut: where s or t of the lines lies outside [0, 1], your code sets s to
       0. Clamp s instead
     start-where-cut 2: your code sets an s outside [0, 1] to 0. An s above 1 should
       become 1
-    start-where-cut 3: your code sets an s outside [0, 1] to 0.5. Clamp it instead
+    start-where-cut 3: your code sets an s outside [0, 1] to 0.5. Clamp s instead
     start-where-cut 4: your code sets s and t outside [0, 1] to 0. A value above 1
       should become 1
-    one-end-cut: your code recomputes s where t is below 0, but not where t is above 1
-    one-end-cut 2: your code recomputes s where t is above 1, but not where t is below 0
-    t-one-end-cut: your code clamps t at 1 but not at 0, so its point can lie before b0
-    t-one-end-cut 2: your code clamps t at 0 but not at 1, so its point can lie beyond
-      b1
+    one-end-cut: your code recomputes s where t is below 0, but not where t is above 1.
+      Recompute s in both cases
+    one-end-cut 2: your code recomputes s where t is above 1, but not where t is below
+      0. Recompute s in both cases
+    t-one-end-cut: your code clamps t at 1 but not at 0, so the point of the second
+      segment can lie before b0
+    t-one-end-cut 2: your code clamps t at 0 but not at 1, so the point of the second
+      segment can lie beyond b1
     a-start-alone: your code returns the start of the first segment and the point of the
-      second that is nearest to it
+      second that is nearest to this start. Compute both closest points
     a-middle-alone: your code returns the midpoint of the first segment and the point of
-      the second that is nearest to it
+      the second that is nearest to this midpoint. Compute both closest points
     farthest: your code selects the farthest of the candidate pairs. Select the nearest
     one-round: your code sets s = 0 and then computes t and s only once, which does not
       reach the minimum

@@ -113,12 +113,12 @@ def _(rng):
     hidden={"still-before-touching": "in a run nothing is still where it touches"}
 )
 def _(s, distance, delta_q, radii):
-    """no-bound: your code adds the distance in metres to s. Divide it by the bound on
-      the motion per unit of s first
+    """no-bound: your code adds the distance in metres to s. First divide it by the
+      bound on the motion per unit of s
     signs-kept: your sum keeps the signs of delta_q, so opposite rotations cancel. Take
       absolute values
     signs-kept 2: your code takes the absolute value after the sum, so opposite
-      rotations cancel. Take it for each joint
+      rotations cancel. Take the absolute value for each joint
     fastest-joint-only: your bound uses only the largest product, but the motions of all
       joints add up
     fastest-joint-only 2: your bound uses only the largest |delta_q|, but the motions of
@@ -133,8 +133,7 @@ def _(s, distance, delta_q, radii):
       not the bound in the task
     reach-forgotten: your code omits the radii, but a rotation in radians becomes a
       distance only when multiplied by a radius
-    dq-forgotten: your code omits delta_q in the bound, but a longer motion needs a
-      shorter step
+    dq-forgotten: your bound omits delta_q, but a longer motion needs a shorter step
     of-what-is-left: your code multiplies the step by 1 - s, but delta_q belongs to the
       whole motion, so this factor is wrong
     of-what-is-left 2: your code divides the step by 1 - s, but delta_q belongs to the
@@ -145,7 +144,7 @@ def _(s, distance, delta_q, radii):
     multiplied: your code multiplies the distance by the bound. Divide by it, because a
       faster motion needs a shorter step
     s-forgotten: your code returns the step alone. Add it to s
-    not-capped: your result can exceed 1, the end of the motion. Limit it to 1
+    not-capped: your result can exceed 1, the end of the motion. Clamp it at 1
     standing-still: if no joint moves, your code divides by 0. Return 1, because the
       rest of the motion is collision-free
     standing-still 2: if no joint moves, your code returns s. Return 1, because the rest
@@ -177,8 +176,9 @@ def _(s, distance, delta_q, radii):
       joints add up
     step-capped: your code limits the step to 1, but s plus the step can exceed 1. Limit
       the sum
-    limit-of-the-whole: your limit compares the distance with the bound of the whole
-      motion. Compare it with the bound of the rest, 1 - s times as much
+    limit-of-the-whole: your code compares the distance with the bound on the whole
+      motion. Compare the distance with the bound on the remaining motion, which is 1 -
+      s times as large
     step-capped 2: your code returns the smaller of 1 - s and the step. Return the
       smaller of 1 and s + step
     max-for-min: your code uses max instead of min, so the result is never below 1

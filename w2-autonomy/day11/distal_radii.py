@@ -86,7 +86,7 @@ def _(link_lengths, link_radii):
     euclid: your code combines the lengths as the root of a sum of squares, but in the
       stretched arm they add up
     one-for-all: your code returns the largest result for every joint. Each joint should
-      have its own
+      have its own bound
     backwards: your result is in reverse order, but its first entry belongs to joint 1
     sum-from-the-base: your code sums the link lengths from the base to the joint. Sum
       them from the joint to the distal link
@@ -101,8 +101,8 @@ def _(link_lengths, link_radii):
     less-the-base 2: your code measures the farthest distal point from the base. Measure
       it from the joint
     largest-far-behind: your bound adds the largest distal link radius to the distance
-      of the last joint. Each radius should be added to the distance of its own joint,
-      and then you take the maximum
+      of the last joint. Add each radius to the distance of its own joint, and then take
+      the maximum
     largest-far-behind 2: your code places the largest link radius beyond the next joint
       at the last link, but each radius belongs to its own link
     own-offset-repeated: your code repeats the joint's own link length for every distal
@@ -118,7 +118,8 @@ def _(link_lengths, link_radii):
     two-behind-only: your bound uses only the next two links, but the joint moves all
       distal links
     sum-not-largest: your code adds the link radius to the maximum of the link length
-      and the next result. Take the maximum of the link radius and their sum
+      and the next result. Take the maximum of the link radius and the sum of the other
+      two
     largest-of-three: your code takes the maximum of the link radius, the link length
       and the next result. Add the last two first
     largest-far-next: your code adds the largest link radius to the link length. Add the

@@ -119,8 +119,8 @@ MORE = (
 )
 def _(qd, grad, distance, gain):
     """always: your code changes velocities that are already allowed. Return qd for them
-    not-divided: your code does not divide the correction by grad . grad, so its size is
-      wrong unless grad has norm 1
+    not-divided: your code does not divide the correction by grad . grad, so the
+      correction has the wrong norm unless grad has norm 1
     divided-by-the-length: your code divides the correction by the norm of grad. Divide
       it by grad . grad
     pushed-in: your correction has the wrong sign, so the arm moves nearer to the
@@ -139,15 +139,15 @@ def _(qd, grad, distance, gain):
       -gain distance
     distance-sign-lost: your code uses the absolute value of the distance. A negative
       distance should give a positive bound, which moves the arm away
-    gain-forgotten: your code omits the gain in the bound
-    distance-forgotten: your code omits the distance in the bound
-    distance-over-gain: your code divides the distance by the gain. Multiply them
+    gain-forgotten: your bound omits the gain. It should be -gain distance
+    distance-forgotten: your bound omits the distance. It should be -gain distance
+    distance-over-gain: your code divides the distance by the gain. Multiply the two
     wrong-side: your code reverses the comparison, so it changes allowed velocities and
       keeps those that are too fast
     leaving-forbidden: your code also limits velocities away from the obstacle. Limit
       only the approach
-    joint-by-joint: your code applies the bound to each joint separately, but it limits
-      the sum grad . qd
+    joint-by-joint: your code applies the bound to each joint separately, but the bound
+      limits the sum grad . qd
     joint-by-joint 2: your code clamps each joint velocity to the bound, but the bound
       is in m/s and limits the sum grad . qd
     largest-joint-only: your code changes only the joint with the largest entry of grad,

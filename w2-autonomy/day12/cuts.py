@@ -92,7 +92,7 @@ def _placed(how: Callable[[Any], int], more: int) -> Any:
 OPTIONS = [
     Option("not-sorted", "your code skips a pair if its first row is the larger one. "
         "Sort the two rows", {"order": list}),
-    Option("not-checked", "your code removes the points without testing the new edge. "
+    Option("not-checked", "your code removes points without testing the new edge. "
                           "Remove them only if this edge is free",
            {"check": lambda a, b, world: True}),
     Option("hit-for-free", "your code inverts the test, so it applies shortcuts that "
@@ -142,28 +142,32 @@ OPTIONS = [
                               "row by one. Use int(u m) "
                               "for both", {"places": lambda pair, m: [
                int(min(pair) * (m - 1)), int(max(pair) * (m - 1)) + 1]}),
-    Option("two-apart-left", "your code skips rows that are two apart", {"least": 2}),
-    Option("three-apart-left", "your code skips rows that are two or three apart",
+    Option("two-apart-left", "your code skips rows that are two apart, but the point "
+                             "between them can be removed", {"least": 2}),
+    Option("three-apart-left", "your code skips rows that are two or three apart, "
+                               "but the points between them can be removed",
            {"least": 3}),
-    Option("pairs-backwards", "your code uses the pairs in reverse order",
+    Option("pairs-backwards", "your code uses the pairs in reverse order. Start with "
+                              "the first pair",
            {"used": lambda pairs: pairs[::-1]}),
-    Option("first-pair-left-out", "your code does not use the first pair",
+    Option("first-pair-left-out", "your code does not use the first pair. Use all "
+                                  "pairs",
            {"used": lambda pairs: pairs[1:]}),
-    Option("last-pair-left-out", "your code does not use the last pair",
+    Option("last-pair-left-out", "your code does not use the last pair. Use all pairs",
            {"used": lambda pairs: pairs[:-1]}),
-    Option("first-pair-only", "your code uses only the first pair",
+    Option("first-pair-only", "your code uses only the first pair. Use all pairs",
            {"used": lambda pairs: pairs[:1]}),
-    Option("pairs-twice", "your code uses all pairs a second time",
+    Option("pairs-twice", "your code uses all pairs a second time. Use each pair once",
            {"used": lambda pairs: np.concatenate([pairs, pairs])}),
     Option("first-cut-only", "your code stops after the first shortcut. Try all "
                              "pairs",
            {"ends": "cut"}),
     Option("ends-when-blocked", "your code stops at the first pair without a shortcut. "
                                 "Try all pairs", {"ends": "blocked"}),
-    Option("one-node-short", "your code removes row j too. "
-                             "Keep it", {"join": _kept(0, 1)}),
-    Option("one-node-short", "your code removes row i too. "
-                             "Keep it", {"join": _kept(-1, 0)}),
+    Option("one-node-short", "your code removes row j too. Keep row j",
+         {"join": _kept(0, 1)}),
+    Option("one-node-short", "your code removes row i too. Keep row i",
+         {"join": _kept(-1, 0)}),
     Option("both-ends-short", "your code removes rows i and j too. Keep them",
            {"join": _kept(-1, 1)}),
     Option("one-too-many", "your code keeps the row before j. Remove it",
@@ -180,10 +184,12 @@ OPTIONS = [
                             "point",
            {"join": lambda p, i, j: np.vstack([p[: i + 1], (p[i] + p[j])[None] / 2,
                                                p[j:]])}),
-    Option("ends-at-i", "your path ends at i", {"join": lambda p, i, j: p[: i + 1]}),
-    Option("begins-at-j", "your path begins at j", {"join": lambda p, i, j: p[j:]}),
-    Option("inside-kept", "your code keeps the rows between i and j and removes the"
-                          " rest",
+    Option("ends-at-i", "your path ends at i. Append the path from j on",
+         {"join": lambda p, i, j: p[: i + 1]}),
+    Option("begins-at-j", "your path begins at j. Put the path up to i before it",
+         {"join": lambda p, i, j: p[j:]}),
+    Option("inside-kept", "your code keeps the rows between i and j and removes the "
+                          "others. Remove the rows between i and j instead",
            {"join": lambda p, i, j: p[i : j + 1]}),
 ]  # fmt: skip
 

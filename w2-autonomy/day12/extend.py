@@ -184,7 +184,8 @@ def _(tree, sample, step, world):
       reports every edge of such a world as blocked
     free-if-reached: your code reports a free edge only if the step reaches the sample,
       but a step towards the sample is an edge too
-    reached-is-free: if the step reaches the sample, your code does not test the edge
+    reached-is-free: if the step reaches the sample, your code does not test the edge.
+      Test every edge
     ends-only: your code tests only the two ends of the edge. Test the points between
       them too
     twice-a-step: your edge has a length of two steps. Limit it to one step
@@ -196,8 +197,8 @@ def _(tree, sample, step, world):
       edge. Select the nearest node of all and report whether its edge is free
     sample-where-blocked: if the edge is not free, your code returns the sample. Return
       the new point in both cases
-    part-of-the-way: if the edge is not free, your code shortens it until it is free.
-      Leave the new point as it is and return False
+    part-of-the-way: if the edge is not free, your code shortens the edge until it is
+      free. Leave the new point unchanged and return False
     """
     own = world is not discs_of(world)
     world = discs_of(world)

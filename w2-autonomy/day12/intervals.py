@@ -99,7 +99,7 @@ OPTIONS = [
             ("one-for-z2", "1 / (2 n)", lambda z, n: 1 / (2 * n)))
     ]),
     *_each("front", [
-        ("z-forgotten", "your code omits the factor z of the root", lambda z: 1.0),
+        ("z-forgotten", "your code omits the factor z before the root", lambda z: 1.0),
         ("z-squared", "your code multiplies the root by z^2. Multiply it by z",
          lambda z: z * z),
         ("half-width", "your code multiplies the root by z / 2. Multiply it by z",
@@ -156,54 +156,63 @@ OPTIONS = [
              lambda z, n: np.sqrt(1 + z**2 / n)))
     ]),
     *_each("around", [
-        ("continuity", "your code adds 1 / (2 n) to the half-width",
+        ("continuity", "your code adds 1 / (2 n) to the half-width, as in a "
+                       "continuity correction. Omit this term",
          lambda a, n: a + 1 / (2 * n)),
-        ("half-width", "your interval has half of the correct width. The half-width "
-                       "should be added and subtracted",
+        ("half-width", "your interval is half as wide as it should be. Add and "
+                       "subtract the whole half-width",
          lambda a, n: a / 2),
-        ("not-rooted", "your code squares the half-width", lambda a, n: a * a),
+        ("not-rooted", "your code squares the half-width. Add and subtract the "
+                       "half-width itself", lambda a, n: a * a),
     ]),
     *_each("out", [
         ("percent", "your result is in per cent. Return a proportion",
          lambda ends, n: 100 * ends),
         ("counts", "your code returns counts. Return proportions",
          lambda ends, n: n * ends),
-        ("cut", "your code clamps the ends to the range from 0.01 to "
-                "0.99", lambda ends, n:
+        ("cut", "your code clamps the ends to the range from 0.01 to 0.99. Do not "
+                "clamp them", lambda ends, n:
          np.clip(ends, 0.01, 0.99)),
-        ("cut", "your code clamps the ends to the range from 0 to 1",
+        ("cut", "your code clamps the ends to the range from 0 to 1, but the "
+                "ends of a Wilson interval never lie outside it",
          lambda ends, n: np.clip(ends, 0, 1)),
         ("high-first", "your upper end comes first. Return the lower end first",
          lambda ends, n: ends[::-1]),
-        ("low-is-zero", "your lower end is always 0, but the interval has two sides",
+        ("low-is-zero", "your lower end is always 0, but the interval should be "
+                        "two-sided",
          lambda ends, n: np.array([0.0, ends[1]])),
-        ("high-is-one", "your upper end is always 1, but the interval has two sides",
+        ("high-is-one", "your upper end is always 1, but the interval should be "
+                        "two-sided",
          lambda ends, n: np.array([ends[0], 1.0])),
-        ("low-alone", "both of your entries are the lower end",
+        ("low-alone", "both of your entries are the lower end. Return both ends",
          lambda ends, n: ends[[0, 0]]),
-        ("high-alone", "both of your entries are the upper end",
+        ("high-alone", "both of your entries are the upper end. Return both ends",
          lambda ends, n: ends[[1, 1]]),
         ("middle-and-width", "your code returns the centre and the half-width. "
                              "Return the two ends", lambda ends, n:
          np.array([ends.mean(), np.diff(ends)[0] / 2])),
     ]),
     *_each("none", [
-        ("none-is-zero", "for n = 0 your code returns (0, 0). Return (0, 1)",
+        ("none-is-zero", "for n = 0, your code returns (0, 0). Return (0, 1)",
          (0.0, 0.0)),
-        ("none-is-half", "for n = 0 your code returns (1/2, 1/2). Return (0, 1)",
+        ("none-is-half", "for n = 0, your code returns (1/2, 1/2). Return (0, 1)",
          (0.5, 0.5)),
-        ("none-is-one", "for n = 0 your code returns (1, 1). Return (0, 1)",
+        ("none-is-one", "for n = 0, your code returns (1, 1). Return (0, 1)",
          (1.0, 1.0)),
-        ("none-is-turned", "for n = 0 your code returns (1, 0). Return (0, 1)",
+        ("none-is-turned", "for n = 0, your code returns (1, 0). Return (0, 1)",
          (1.0, 0.0)),
     ]),
     *_each("without", [
-        ("no-success-is-none", "your code treats k = 0 like n = 0",
+        ("no-success-is-none", "your code treats k = 0 like n = 0, but only n = 0 is "
+                               "a special case",
          lambda k, n: k == 0),
-        ("all-is-none", "your code treats k = n like n = 0",
+        ("all-is-none", "your code treats k = n like n = 0, but only n = 0 is a "
+                        "special case",
          lambda k, n: k == n),
-        ("one-is-none", "your code treats n = 1 like n = 0", lambda k, n: n < 2),
-        ("few-are-none", "your code treats n < 5 like n = 0",
+        ("one-is-none", "your code treats n = 1 like n = 0, but only n = 0 is a "
+                        "special case", lambda k, n: n < 2),
+        ("few-are-none", "your code treats n < 5 like n = 0, but only n = 0 is a "
+                         "special case",
          lambda k, n: n < 5),
     ]),
 ]  # fmt: skip

@@ -152,24 +152,25 @@ OPTIONS = [
         ("points-for-steps", "your ds is 1 / (N + 2). The N + 1 points have N steps "
                              "between them, so ds should be 1 / N",
          lambda n: 2 / (n + 2)),
-        ("ds-forgotten", "your code omits ds, or its ds is 1. It "
-                         "should be 1 / N", lambda n: 2.0),
+        ("ds-forgotten", "your code omits ds, or your ds is 1. It should be 1 / N",
+         lambda n: 2.0),
         ("ds-forgotten", "your code omits the factor 2 ds, or this factor is 1. The "
                          "step ds should be 1 / N",
          lambda n: 1.0))),
     Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2. Its argument "
                          "should be sd",
            {"sd": lambda x: x}),
-    Option("sd-for-sd2", "in the forward pass your code calls `path_accel_bounds` with "
-                         "sd^2. Its argument should be sd",
+    Option("sd-for-sd2", "in the forward pass, your code calls `path_accel_bounds` "
+                         "with sd^2. Its argument should be sd",
            {"forward_sd": lambda x: x}),
     Option("sd-squared-twice", "your code calls `path_accel_bounds` with sd^4. Its "
                                "argument should be sd",
            {"sd": lambda x: x * x}, alone=True),
-    Option("at-rest", "your code calls `path_accel_bounds` with sd = 0 in both passes",
+    Option("at-rest", "your code calls `path_accel_bounds` with sd = 0 in both "
+                      "passes. Its argument should be the sd at that point",
            {"sd": lambda x: 0.0 * x}, alone=True),
     Option("at-rest", "in the forward pass, your code calls `path_accel_bounds` with "
-                      "sd = 0",
+                      "sd = 0. Its argument should be the sd at that point",
            {"forward_sd": lambda x: 0.0 * x}, alone=True),
     Option("start-not-at-rest", "your motion starts with the largest sd^2 from which "
                                 "it can stop. Start with 0", {"start": "K"}),
@@ -189,71 +190,76 @@ OPTIONS = [
     Option("bobrow", "in the backward pass, your code computes the smallest sdd of a "
                      "step at its end. Use its first point",
            {"swept": True}),
-    Option("limits-of-the-next-point", "in both passes your code computes the bounds "
-                                       "on sdd for a step at the end of the step. "
-                                       "Compute them at its first point",
+    Option("limits-of-the-next-point", "in both passes, your code computes the "
+                                       "bounds on sdd for a step at the end of the "
+                                       "step. Compute them at its first point",
            {"back_at": 1, "at": 1}),
-    Option("limits-of-the-next-point", "in the backward pass your code computes the "
+    Option("limits-of-the-next-point", "in the backward pass, your code computes the "
                                        "bounds on sdd for a step at the end of the "
                                        "step. Compute them at its first point",
         {"back_at": 1}),
-    Option("limits-of-the-next-point", "in the forward pass your code computes the "
+    Option("limits-of-the-next-point", "in the forward pass, your code computes the "
                                        "bounds on sdd for a step at the end of the "
                                        "step. Compute them at its first point",
         {"at": 1}),
     *(Option(slug, says, {"pull": of}, alone=True) for slug, says, of in (
-        ("limits-of-the-first-point", "every step in your code uses a, b and c of the "
-                                      "first point. Use the values of each point",
+        ("limits-of-the-first-point", "your code uses a, b and c of the first point "
+                                      "in every step. Use the values of each point",
          lambda *rows: tuple(np.broadcast_to(x[0], x.shape) for x in rows)),
-        ("limits-of-the-last-point", "every step in your code uses a, b and c of the "
-                                     "last point. Use the values of each point",
+        ("limits-of-the-last-point", "your code uses a, b and c of the last point in "
+                                     "every step. Use the values of each point",
          lambda *rows: tuple(np.broadcast_to(x[-1], x.shape) for x in rows)),
         ("gravity-forgotten", "your code omits gravity in the torques",
          lambda A, B, G: (A, B, 0 * G)),
-        ("gravity-of-the-first-point", "every point in your code uses the gravity of "
-                                       "the first point",
+        ("gravity-of-the-first-point", "your code uses the gravity of the first "
+                                       "point at every point. Use the gravity of "
+                                       "each point",
          lambda A, B, G: (A, B, np.broadcast_to(G[0], G.shape))),
-        ("gravity-sign", "your code reverses the sign "
-                         "of gravity", lambda A, B, G: (A, B, -G)),
-        ("coriolis-forgotten", "your code omits b in the torques",
+        ("gravity-sign", "your code reverses the sign of gravity. Use c itself",
+         lambda A, B, G: (A, B, -G)),
+        ("coriolis-forgotten", "your code omits b sd^2 in the torques",
          lambda A, B, G: (A, 0 * B, G)),
-        ("coriolis-sign", "your code reverses the sign "
-                          "of b", lambda A, B, G: (A, -B, G)),
-        ("B-and-G-exchanged", "your code swaps b and c", lambda A, B, G: (A, G, B)),
-        ("A-and-B-exchanged", "your code swaps a and b", lambda A, B, G: (B, A, G)))),
+        ("coriolis-sign", "your code reverses the sign of b. Use b itself",
+         lambda A, B, G: (A, -B, G)),
+        ("B-and-G-exchanged", "your code swaps `b` and c", lambda A, B, G: (A, G, B)),
+        ("A-and-B-exchanged", "your code swaps `a` and `b`",
+         lambda A, B, G: (B, A, G)))),
     *(Option(slug, says, {"most": of}, alone=True) for slug, says, of in (
         ("no-speed-limit", "your code does not use "
                            "sd2_max", lambda x: np.full_like(x, 1e3)),
-        ("x-max-of-the-next-point", "your code uses sd2_max of the next point",
+        ("x-max-of-the-next-point", "your code uses sd2_max of the next point. Use "
+                                    "sd2_max of the same point",
          lambda x: np.append(x[1:], x[-1])),
-        ("x-max-of-the-point-before", "your code uses sd2_max of the previous point",
+        ("x-max-of-the-point-before", "your code uses sd2_max of the previous point. "
+                                      "Use sd2_max of the same point",
          lambda x: np.append(x[0], x[:-1])),
-        ("least-x-max", "every point in your code uses the smallest sd2_max",
+        ("least-x-max", "your code uses the smallest sd2_max at every point. Each "
+                        "point has its own sd2_max",
          lambda x: np.full_like(x, x.min())),
-        ("x-max-of-the-first-point", "every point in your code uses sd2_max of the "
-                                     "first point",
+        ("x-max-of-the-first-point", "your code uses sd2_max of the first point at "
+                                     "every point. Each point has its own sd2_max",
          lambda x: np.full_like(x, x[0])),
-        ("x-max-squared", "your code squares sd2_max, but it is already a square",
+        ("x-max-squared", "your code squares sd2_max, but sd2_max is already a square",
          lambda x: x**2),
         ("x-max-rooted", "your code takes the square root of sd2_max. Compare sd^2 "
                          "with sd2_max itself", np.sqrt))),
     *(Option(slug, says, {"stands": of}) for slug, says, of in (
-        ("cannot-stand-goes", "your code returns a motion although gravity alone "
-                              "exceeds a torque limit. The arm cannot hold there, so "
-                              "return zeros",
+        ("cannot-stand-goes", "your code returns a nonzero motion although gravity "
+                              "alone exceeds a torque limit. The arm cannot stay at "
+                              "rest at such a point, so return zeros",
          lambda G, limits: False),
         ("all-points-too-heavy", "your code returns zeros only if gravity exceeds a "
                                  "torque limit at every point, but one point is enough",
          lambda G, limits: np.all(np.abs(G) > limits)),
         ("first-point-alone", "your code compares gravity with the torque limits "
-                              "only at the first point",
+                              "only at the first point. Compare it at every point",
          lambda G, limits: np.any(np.abs(G[0]) > limits)),
         ("ends-alone", "your code compares gravity with the torque limits only at "
-                       "the two ends",
+                       "the two ends. Compare it at every point",
          lambda G, limits: np.any(np.abs(G[[0, -1]]) > limits)),
         ("gravity-with-sign", "your code compares gravity with the torque limits "
-                              "without its absolute value, but the limits also apply "
-                              "to negative torques",
+                              "without taking its absolute value, but the limits "
+                              "also apply to negative torques",
          lambda G, limits: np.any(limits < G)))),
     *(Option(f"without-{what}", f"your backward pass does not test whether {says}",
              {"without": (what,)}, alone=True) for what, says in (
@@ -263,7 +269,8 @@ OPTIONS = [
     Option("most-of-the-point-before", "in the forward pass, your code limits sd^2 at "
                                        "i + 1 by the maximum at i. Use the maximum at "
                                        "i + 1", {"kept": 0}),
-    *(Option(slug, f"your code uses the {word} torque limit for every joint",
+    *(Option(slug, f"your code uses the {word} torque limit for every joint. Each "
+                   "joint has its own limit",
              {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
         ("smallest-limit", "smallest", np.min), ("largest-limit", "largest", np.max),
         ("first-limit", "first joint's", lambda x: x[0]))),
@@ -278,9 +285,10 @@ OPTIONS = [
     *(Option(slug, says, {"out": of}) for slug, says, of in (
         ("root", "your code returns sd. Return sd^2", np.sqrt),
         ("squared", "your code returns sd^4. Return sd^2", np.square),
-        ("end-to-start", "your motion runs from the end to the start",
+        ("end-to-start", "your motion runs from the end to the start. Reverse it",
          lambda x: x[::-1]),
-        ("stopped-at-the-end", "your code sets the last entry to 0 at the end",
+        ("stopped-at-the-end", "your code sets the last entry to 0 only after the "
+                               "two passes. Start the backward pass with 0",
          lambda x: np.append(x[:-1], 0.0)),
         ("mirrored", "your code takes the minimum of the motion and its mirror image, "
                      "but the limits are different in the other direction",

@@ -107,7 +107,7 @@ def _others(tree, q, far):
 
 @row.wrongs(hidden={"itself-left-out": "the lab asks for no node's own place"})
 def _(tree, q):
-    """farthest: your code returns the farthest node. Return the nearest
+    """farthest: your code returns the farthest node. Return the nearest one
     newest: your code always returns the last node of the tree. Return the node nearest
       to q
     one-coordinate: your code compares only the first coordinate. Use the distance in
@@ -118,8 +118,8 @@ def _(tree, q):
       their squares
     signed-sum 2: your code adds the differences before it squares them, so they cancel.
       Square them first
-    last-of-equals: if several nodes are equally near, your code returns the last.
-      Return the first, as argmin does
+    last-of-equals: if several nodes are equally near, your code returns the last one.
+      Return the first one, as np.argmin does
     largest-coordinate: your code compares the largest difference in one coordinate. Use
       the Euclidean distance
     sum-of-sizes: your code compares the sum of the absolute differences. Use the
@@ -133,10 +133,10 @@ def _(tree, q):
     from-the-origin: your code does not use q, so it returns the node nearest to the
       origin
     q-added: your code adds q to the nodes. Subtract it
-    most-alike: your code compares the dot products with q, but they also grow with the
-      norm of a node
-    place-of-the-distance: your code returns the rank of the first node. Return the
-      index of the smallest distance
+    most-alike: your code compares the dot products with q, but a dot product also grows
+      with the norm of the node
+    place-of-the-distance: your code returns the rank of the root in the order of the
+      distances. Return the index of the smallest distance
     counted-from-the-end: your index counts from the end of the tree. Count from the
       root
     smallest-coordinate: your code compares the smallest difference in one coordinate.
@@ -150,7 +150,7 @@ def _(tree, q):
     length-for-place: your code compares the norms of the nodes with the norm of q. Two
       points with the same norm can be far apart
     angle: your code selects the node at the smallest angle to q. Use the distance
-    second-nearest: your code returns the second nearest node. Return the nearest
+    second-nearest: your code returns the second nearest node. Return the nearest one
     least-not-kept: your code compares each row with the distance of the root. Compare
       it with the smallest distance so far
     row-before: your code compares each row only with the previous row. Compare it with
@@ -162,14 +162,15 @@ def _(tree, q):
     rounded 2: your code rounds the distances before it compares them, so two different
       distances can be equal
     root-left-out: your code skips the root, row 0, but the root can be the nearest node
-    root-left-out 2: your code skips the root, row 0, and counts the rows from row 1
+    root-left-out 2: your code skips the root, row 0, and counts the rows from row 1.
+      Include the root, and count from row 0
     last-left-out: your code skips the last row, but the last node can be the nearest
-    over-all-numbers: your code searches the minimum over all entries of the tree. Each
-      row has one distance, so sum along axis 1
+    over-all-numbers: your code searches for the minimum over all entries of the tree.
+      Each row has one distance, so sum along axis 1
     sum-of-columns: your code sums the squares along axis 0. Sum along axis 1, because
       each row is a node
-    itself-left-out: your code skips a node that equals q, but its distance is 0, so it
-      is the nearest
+    itself-left-out: your code skips a node that equals q, but such a node has distance
+      0, so it is the nearest one
     largest-with-sign: your code compares the largest signed difference. Use the
       Euclidean distance
     """

@@ -169,14 +169,14 @@ def _of_holding(rest, pull, c, limits, moves, free):
 
 @row.wrongs
 def _(a, b, c, limits, sd):
-    """not-sorted: if a is negative, your code swaps the lower and the upper bound of
+    """not-sorted: if `a` is negative, your code swaps the lower and the upper bound of
       that joint. Sort the two quotients
     speed-forgotten: your code omits the term b sd^2
     speed-sign: your code adds b sd^2 to the limits. Subtract it
     gravity-forgotten: your code omits the term c
     gravity-sign: your code adds c to the limits. Subtract it
     rest-added: your code adds b sd^2 + c to the limits. Subtract it
-    rest-not-divided: your code does not divide b sd^2 + c by a
+    rest-not-divided: your code does not divide b sd^2 + c by `a`
     one-sided: your b sd^2 + c has the wrong sign in the lower bound, but the bounds are
       not symmetric about 0
     size-of-rest: your code reduces both limits by |b sd^2 + c|. This torque should
@@ -190,8 +190,8 @@ def _(a, b, c, limits, sd):
     last-joint-only: your code uses only the last joint. Does your loop overwrite the
       earlier bounds?
     half-the-limit: your code uses only half of each torque limit. Use the whole limit
-    not-divided: your bounds are torques. Divide them by a
-    times-a: your code multiplies the torques by a. Divide by a
+    not-divided: your bounds are torques. Divide them by `a`
+    times-a: your code multiplies the torques by `a`. Divide them by `a`
     one-limit: your code allows torques from 0 to the limit, but the torques may range
       from -limit to limit
     greatest-first: your upper bound comes first. Return the lower bound first
@@ -201,21 +201,22 @@ def _(a, b, c, limits, sd):
       above the upper bound
     none-sorted 2: if the joints allow no common sdd, your code sorts the bounds. Leave
       the lower bound above the upper bound
-    none-is-zero: if no sdd is allowed, your code returns (0, 0), which allows sdd = 0
+    none-is-zero: if no sdd is allowed, your code returns (0, 0), but (0, 0) allows sdd
+      = 0
     none-is-zero 2: if a joint with a = 0 exceeds its limit, your code returns (0, 0),
       which allows sdd = 0. Return (inf, -inf)
     none-is-one: if no sdd is allowed, your code reduces the lower bound to the upper
       bound. Leave it above the upper bound
-    zero-stops-all: a joint with a = 0 within its torque limit makes the range empty in
-      your code. Such a joint does not limit sdd
+    zero-stops-all: your code returns an empty range for a joint with a = 0 within its
+      torque limit. Such a joint does not limit sdd
     zero-row-ignored: your code ignores a joint with a = 0 that exceeds its torque
       limit. In this case no sdd is allowed, so return (inf, -inf)
-    gravity-not-divided: your code subtracts c after the division by a. It is a torque,
-      so subtract it first
-    speed-not-divided: your code subtracts b sd^2 after the division by a. It is a
-      torque, so subtract it first
-    negative-left-out: your code ignores joints with negative a, but every joint that
-      moves limits sdd
+    gravity-not-divided: your code subtracts c after the division by `a`. The term c is
+      a torque, so subtract it first
+    speed-not-divided: your code subtracts b sd^2 after the division by `a`. This term
+      is a torque, so subtract it first
+    negative-left-out: your code ignores joints with a negative `a`, but every joint
+      that moves limits sdd
     largest-limit: your code uses the largest torque limit for every joint. Each joint
       has its own limit
     smallest-limit: your code uses the smallest torque limit for every joint. Each joint
@@ -237,30 +238,30 @@ def _(a, b, c, limits, sd):
     zero-kept-in: your range always includes 0, but sdd = 0 need not be allowed
     six-joints: your code uses only the first six joints, but the arm can have any
       number of joints
-    first-left-out: your code skips the first joint
+    first-left-out: your code skips the first joint, but every joint limits sdd
     none-is-zero 3: if the joints allow no common sdd, your code returns (0, 0), which
       allows sdd = 0. Leave the lower bound above the upper bound
     none-is-infinite: if the joints allow no common sdd, your code returns (inf, -inf).
       Return the bounds themselves, because (inf, -inf) is reserved for a joint with a =
       0
-    no-mover-is-none: if every a is 0 and every torque is within its limit, your code
+    no-mover-is-none: if every `a` is 0 and every torque is within its limit, your code
       returns (inf, -inf). Any sdd is allowed, so return (-inf, inf)
-    held-by-gravity-alone: for a joint with a = 0 your code compares only c with the
+    held-by-gravity-alone: for a joint with a = 0, your code compares only c with the
       limit. Compare b sd^2 + c
-    held-by-speed-alone: for a joint with a = 0 your code compares only b sd^2 with the
+    held-by-speed-alone: for a joint with a = 0, your code compares only b sd^2 with the
       limit. Compare b sd^2 + c
-    held-with-sign: for a joint with a = 0 your code compares the torque without its
+    held-with-sign: for a joint with a = 0, your code compares the torque without its
       absolute value. The limit also applies to negative torques
     all-have-to-hold: your code compares b sd^2 + c with the limit for joints that move
       too. This test is only for joints with a = 0
-    any-that-holds: if several joints have a = 0, your code accepts the speed if one of
-      them is within its limit. All of them must be within their limits
-    small-is-zero: your code treats a small a as 0, but a joint with a small a still
+    any-that-holds: if several joints have a = 0, your code accepts the speed if at
+      least one of them is within its limit. All of them must be
+    small-is-zero: your code treats a small `a` as 0, but a joint with a small `a` still
       limits sdd
-    small-is-zero 2: your code treats a small a as 0, but a joint with a small a still
-      limits sdd
-    small-is-zero 3: your code treats a small a as 0, but a joint with a small a still
-      limits sdd
+    small-is-zero 2: your code treats a small `a` as 0, but a joint with a small `a`
+      still limits sdd
+    small-is-zero 3: your code treats a small `a` as 0, but a joint with a small `a`
+      still limits sdd
     held-below-its-limit: your code rejects a joint with a = 0 whose torque equals its
       limit, but equality is allowed
     """

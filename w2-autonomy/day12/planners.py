@@ -163,7 +163,7 @@ def one_tree(
 
 OPTIONS = [
     Option("swap-when-it-grew", "your code swaps the trees only after a sample that "
-                                "made one grow. Swap them after every sample",
+                                "made a tree grow. Swap them after every sample",
            {"turn": "grew"}),
     Option("swap-when-it-failed", "your code swaps the trees only after a blocked "
                                   "sample. Swap them after every sample",
@@ -190,7 +190,8 @@ OPTIONS = [
     Option("blocked-tries-the-other", "in your code, the other tree grows towards a "
                                       "blocked sample. Continue with the next sample",
            {"blocked": "other"}),
-    *(Option("few-samples", f"your code uses only the first {n} samples",
+    *(Option("few-samples", f"your code uses only the first {n} samples. Use all "
+                            "samples",
              {"used": lambda some, n=n: some[:n]}) for n in (5, 10, 20)),
     Option("connect-one-step", "your other tree adds only one edge. Add edges until "
                                "one is blocked or the new node is reached",
@@ -199,8 +200,8 @@ OPTIONS = [
                                     "should grow towards the new node",
            {"approach": "sample"}),
     Option("joined-at-the-sample", "your search ends when the other tree reaches the "
-                                   "sample, but the first tree ends at its new node, "
-                                   "which can be elsewhere",
+                                   "sample. The first tree ends at its new node, so "
+                                   "the other tree should reach this node",
            {"approach": "sample", "meets": "sample"}),
     Option("connect-to-the-root", "your other tree grows towards the root of the first "
                                   "tree. It should grow towards the new node",
@@ -213,18 +214,21 @@ OPTIONS = [
            {"tries": n})
       for n in (2, 3, 4, 5, 10)),
     Option("greedy-samples", "your code adds several edges towards the sample. Add "
-                             "one edge only",
+                             "only one edge",
            {"mine": "connect"}),
-    Option("parent-is-the-newest", "your parent of a node is the previous node. Use "
-                                   "the index that `extend` returns",
+    Option("parent-is-the-newest", "in your code, the parent of each node is the "
+                                   "previous node. Use the index that `extend` "
+                                   "returns",
            {"parent": "newest"}),
-    Option("parent-is-the-root", "your parent of every node is the root. Use the index "
-                                 "that `extend` returns", {"parent": "root"}),
+    Option("parent-is-the-root", "in your code, the parent of every node is the "
+                                 "root. Use the index that `extend` returns",
+{"parent": "root"}),
     Option("grows-from-the-newest", "in your code, a tree grows only from its newest "
                                     "node. Pass all nodes to `extend`, which finds the "
                                     "nearest",
            {"grows": "newest"}),
-    Option("not-checked", "your code adds nodes even if their edge is not free",
+    Option("not-checked", "your code adds nodes even if their edge is not free. Use "
+                          "the third result of `extend`",
            {"free": True}),
     Option("blocked-goes-on", "in your code, the other tree still grows towards the "
                               "newest node after a blocked sample. Continue with the "
@@ -235,25 +239,30 @@ OPTIONS = [
     Option("near-enough", "your search ends when the trees are within one step of each "
                           "other, but the other tree must reach the new node",
            {"meets": "near"}),
-    *(Option("stride", f"your edges have a length of {x:g} steps",
+    *(Option("stride", f"your edges have a length of {x:g} steps. The length should "
+                       "be one step",
            {"stride": x, "far": x})
       for x in (0.5, 2.0)),
     *(Option("stride-of-the-other", f"your edges of the other tree have a length of "
-                                    f"{x:g} steps",
+                                    f"{x:g} steps. The length should be one step",
              {"far": x}) for x in (0.5, 2.0)),
     *(Option("stride-of-the-first", f"your edges towards samples have a length of "
-                                    f"{x:g} steps",
+                                    f"{x:g} steps. The length should be one step",
              {"stride": x}) for x in (0.5, 2.0)),
-    Option("every-other-sample", "your code uses only every second sample",
+    Option("every-other-sample", "your code uses only every second sample. Use all "
+                                 "samples",
            {"used": lambda some: some[::2]}),
     Option("sample-twice", "in your code, each sample extends both trees. It should "
                            "extend one tree",
            {"used": lambda some: np.repeat(some, 2, axis=0)}),
-    Option("samples-backwards", "your code uses the samples in reverse order",
+    Option("samples-backwards", "your code uses the samples in reverse order. Start "
+                                "with sample 0",
            {"used": lambda some: some[::-1]}),
-    Option("first-sample-left-out", "your code skips the first sample",
+    Option("first-sample-left-out", "your code skips the first sample. Does your "
+                                    "loop start one sample too late?",
            {"used": lambda some: some[1:]}),
-    Option("last-sample-left-out", "your code skips the last sample",
+    Option("last-sample-left-out", "your code skips the last sample. Does your loop "
+                                   "end one sample too early?",
            {"used": lambda some: some[:-1]}),
     Option("not-turned-round", "the start's branch of your path runs from the newest "
                                "node to the root. Reverse it",
@@ -270,16 +279,17 @@ OPTIONS = [
     Option("goal-to-start-on-its-turn", "if a sample of the goal's tree completes the "
                                         "path, your path runs from the goal to the "
                                         "start. Reverse it", {"first": "turn"}),
-    Option("meeting-point-twice", "your path contains the node where the trees meet "
-                                  "twice. Include it once",
+    Option("meeting-point-twice", "your path repeats the node at which the trees "
+                                  "meet. Include it once",
            {"joined": lambda a, b: a[::-1] + b}),
-    Option("meeting-point-lost", "your path does not contain the node where the trees "
-                                 "meet. Include it once",
+    Option("meeting-point-lost", "your path does not contain the node at which the "
+                                 "trees meet. Include it once",
            {"joined": lambda a, b: [*a[:0:-1], *b[1:]]}),
     Option("root-lost", "your path does not contain the start. It should begin at the "
                         "start",
            {"joined": lambda a, b: a[::-1][1:] + b[1:]}),
-    Option("both-roots-lost", "your path contains neither the start nor the goal",
+    Option("both-roots-lost", "your path contains neither the start nor the goal. "
+                              "Include both",
            {"joined": lambda a, b: a[::-1][1:] + b[1:-1]}),
     Option("goal-lost", "your path does not contain the goal. It should end there",
            {"joined": lambda a, b: a[::-1] + b[1:-1]}),

@@ -136,16 +136,18 @@ def _(start, goal, world, samples, step):
       before it
     not-checked: your code adds nodes even if their edge is not free. Use the third
       result of `extend`
-    meeting-point-twice: your path contains the node where the trees meet twice. Include
-      it once
-    meeting-point-lost: your path does not contain the node where the trees meet.
+    meeting-point-twice: your path repeats the node at which the trees meet. Include it
+      once
+    meeting-point-lost: your path does not contain the node at which the trees meet.
       Include it once
     goal-lost: your path does not contain the goal. It should end at the goal
     start-lost: your path does not contain the start. It should begin at the start
     ends-only: your path contains only the start and the goal. Include the nodes of both
       branches
-    first-sample-left-out: your code skips the first sample
-    last-sample-left-out: your code skips the last sample
+    first-sample-left-out: your code skips the first sample. Does your loop start one
+      sample too late?
+    last-sample-left-out: your code skips the last sample. Does your loop end one sample
+      too early?
     straight-tried-first: your code tests the edge from the start to the goal before the
       first sample. Without samples there should be no path
     """

@@ -219,25 +219,25 @@ def _(a, b, discs):
       end, the nearest point should be the end
     ends-only: your code tests only the two ends, but the edge can cross a disc between
       them
-    new-end-only: your code tests only the end b. Test the whole edge
-    start-only: your code tests only the start a. Test the whole edge
+    new-end-only: your code tests only the end `b`. Test the whole edge
+    start-only: your code tests only the start `a`. Test the whole edge
     middle-only: your code tests only the midpoint. Test the whole edge
-    points-only: your code tests only some points of the edge, but a small disc fits
+    points-only: your code tests only some points of the edge, but a small disc can lie
       between two of them
-    points-only 2: your code tests only some points of the edge, but a small disc fits
-      between two of them
-    points-only 3: your code tests only some points of the edge, but a small disc fits
-      between two of them
-    points-only 4: your code tests only some points of the edge, but a small disc fits
-      between two of them
-    points-only 5: your code misses discs that cover only a little of the edge. It tests
-      only some points, or its nearest point is not exact
-    points-only 6: your code misses discs that cover only a little of the edge. It tests
-      only some points, or its nearest point is not exact
-    inside-is-free: your code reports an edge inside a disc as free, because it does not
-      cross the circle. The inside of a disc is blocked
+    points-only 2: your code tests only some points of the edge, but a small disc can
+      lie between two of them
+    points-only 3: your code tests only some points of the edge, but a small disc can
+      lie between two of them
+    points-only 4: your code tests only some points of the edge, but a small disc can
+      lie between two of them
+    points-only 5: your code misses discs that cover only a small part of the edge.
+      Either it tests only some points, or its nearest point is not exact
+    points-only 6: your code misses discs that cover only a small part of the edge.
+      Either it tests only some points, or its nearest point is not exact
+    inside-is-free: your code reports an edge inside a disc as free, because the edge
+      does not cross the circle. The inside of a disc is blocked
     inside-is-free 2: your code reports an edge or a point inside a disc as free,
-      because it does not cross the circle. The inside of a disc is blocked
+      because neither crosses the circle. The inside of a disc is blocked
     inner-only: your code skips a disc whose nearest point lies beyond an end of the
       edge. The end itself can lie in the disc
     inner-only 2: your code skips a disc whose nearest point lies beyond an end, unless
@@ -247,10 +247,10 @@ def _(a, b, discs):
       overwrite the result?
     nearest-centre: your code tests only the disc with the nearest centre, but a disc
       farther away can be larger
-    all-must-hit: your code reports a free edge as soon as it misses one disc, but it
-      must miss every disc
-    all-must-hit 2: your code reports a free edge as soon as it misses one disc, and
-      never if there is no disc. The edge must miss every disc
+    all-must-hit: your code reports the edge as free as soon as the edge misses one
+      disc, but the edge must miss every disc
+    all-must-hit 2: your code reports the edge as free only if the edge misses at least
+      one disc. The edge must miss every disc, so it is free if there is no disc
     squared-for-plain: your code compares the squared distance with the radius. Compare
       it with the squared radius
     plain-for-squared: your code compares the distance with the squared radius. Compare
@@ -259,45 +259,46 @@ def _(a, b, discs):
       number of a disc is its radius
     half-the-radius: your code compares the distance with half of the radius, but the
       third number of a disc is its radius
-    radius-forgotten: your code does not use the radius, so the discs are points
+    radius-forgotten: your code does not use the radius, so it treats the discs as
+      points
     not-divided: your code does not divide the parameter of the nearest point by the
       squared length of the edge
     divided-by-the-length: your code divides the parameter of the nearest point by the
       length of the edge. Divide it by the squared length
     touching-is-free: your code reports an edge that touches a disc as free. It should
       be blocked
-    from-the-origin: your code computes the nearest point from the origin. Subtract a
-      from the centre first
-    other-way: your parameter runs from b to a, but your code applies it from a
+    from-the-origin: your code computes the nearest point from the origin. First
+      subtract `a` from the centre
+    other-way: your parameter runs from `b` to `a`, but your code applies it from `a`
     box: your code treats the discs as squares, because it compares each coordinate
       separately. Use the Euclidean distance
-    foot-without-a: your code measures the nearest point from the origin. Add a
+    foot-without-a: your code measures the nearest point from the origin. Add `a`
     cut-to-one: your code clamps a length along the edge to [0, 1]. Clamp it to the
       length of the edge
     length-for-share: your code multiplies a length along the edge by b - a. Multiply it
       by the unit vector, or divide it by the length of the edge
-    distance-to-the-start: beyond the end b your code uses the distance to a, but the
-      nearest point is b
+    distance-to-the-start: beyond the end `b`, your code uses the distance to `a`, but
+      the nearest point is `b`
     first-crossing-only: your code tests only the first crossing of the circle, but an
       edge that starts in a disc has only the second one
     some-crossing: your code tests whether the infinite line meets the circle, but both
       crossings can lie beyond an end of the edge
     boxes-overlap: your code tests whether the bounding boxes of the edge and the disc
-      overlap. The edge can miss the disc inside its box
+      overlap. The edge can cross the box of the disc and still miss the disc
     x-and-y-exchanged: your code swaps x and y of the centres. Each disc is (x, y,
       radius)
     no-disc-is-hit: if there is no disc, your code reports a blocked edge, but the edge
       is free
     touching-between: your code reports an edge that touches a disc between its ends as
       free. It should be blocked
-    points-only 7: your code misses discs that cover only a little of the edge. It tests
-      only some points, or its nearest point is not exact
-    points-only 8: your code tests only some points of the edge, but a small disc fits
-      between two of them
-    points-only 9: your code misses discs that cover only a little of the edge. It tests
-      only some points, or its nearest point is not exact
-    points-only 10: your code misses discs that cover only a little of the edge. It
-      tests only some points, or its nearest point is not exact
+    points-only 7: your code misses discs that cover only a small part of the edge.
+      Either it tests only some points, or its nearest point is not exact
+    points-only 8: your code tests only some points of the edge, but a small disc can
+      lie between two of them
+    points-only 9: your code misses discs that cover only a small part of the edge.
+      Either it tests only some points, or its nearest point is not exact
+    points-only 10: your code misses discs that cover only a small part of the edge.
+      Either it tests only some points, or its nearest point is not exact
     """
     along = b - a
     square = along @ along

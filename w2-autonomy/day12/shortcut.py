@@ -124,13 +124,13 @@ def _(path, world, pairs, answer):
 
 @row.wrongs
 def _(path, world, pairs):
-    """not-checked: your code removes the points without testing the new edge. Remove
-      them only if this edge is free
+    """not-checked: your code removes points without testing the new edge. Remove them
+      only if this edge is free
     one-node-short: your code removes point j too, so the new edge ends at a point that
       was not tested
     one-node-short 2: your code removes point i too. Keep path[: i + 1]
     one-too-many: your code keeps the point before j. Remove all points between i and j
-    end-lost: your first shortcut removes the end of the path
+    end-lost: your first shortcut removes the end of the path. Keep the last point
     first-cut-only: your code stops after the first shortcut. Try all pairs
     indices-of-the-first-path: your pairs refer to rows of the original path. They
       should refer to the current path

@@ -81,17 +81,18 @@ def _(q, target, step):
     """overshoots: your code takes a full step even if the target is nearer. Stop at the
       target
     no-limit: your code returns the target at any distance. Limit the motion to one step
-    fraction: your code uses `step` as a fraction of the displacement, but it is a
+    fraction: your code uses `step` as a fraction of the displacement, but `step` is a
       length
     fraction-at-most-all: your code uses `step` as a fraction of the displacement, at
-      most 1, but it is a length
+      most 1, but `step` is a length
     not-unit: your code does not divide the displacement to a far target by its norm
     squared: your code divides the displacement by its squared norm. Divide it by the
       norm
     from-the-target: your code subtracts the step from the target. Start at q
     from-the-target 2: your code adds the step to the target. Start at q
-    direction-only: your code returns the displacement. Add q
-    direction-only 2: your code returns the displacement, limited to one step. Add q
+    direction-only: your code returns the displacement. Add it to q
+    direction-only 2: your code returns the displacement, limited to one step. Add it to
+      q
     away: your point moves away from the target. The direction should be target - q
     away 2: if the target is far, your point moves away from it. The direction should be
       target - q
@@ -110,14 +111,14 @@ def _(q, target, step):
       and take a full step if it is far
     from-the-origin: your step starts at the origin. Start at q
     square-compared: your code compares the squared distance with the step. Compare the
-      distance
+      distance itself
     two-coordinates: your distance uses only the first two coordinates. Use all of them
     root-of-the-mean: your code takes the root of the mean of the squares. Take the root
       of their sum
     length-of-the-target: your code divides the displacement by the norm of the target.
       Divide it by the norm of target - q
-    direction-from-the-origin: your direction is the target's direction from the origin.
-      Use the direction from q
+    direction-from-the-origin: your code uses the direction from the origin to the
+      target. Use the direction from q to the target
     stops-half-way: if the target is near, your point moves only half of the distance.
       Return the target
     step-on-each-coordinate: if the target is far, your code changes each coordinate by

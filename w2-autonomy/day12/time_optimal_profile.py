@@ -138,9 +138,9 @@ def _(a, b, c, limits, sd2_max):
     speed-limit-forwards-only: your code uses sd2_max only in the forward pass, but the
       backward pass needs it too
     gravity-forgotten: your code omits gravity in the torques
-    coriolis-forgotten: your code omits b in the torques
-    cannot-stand-goes: your code returns a motion although gravity alone exceeds a
-      torque limit. The arm cannot hold there, so return zeros
+    coriolis-forgotten: your code omits b sd^2 in the torques
+    cannot-stand-goes: your code returns a nonzero motion although gravity alone exceeds
+      a torque limit. The arm cannot stay at rest at such a point, so return zeros
     few-bisections: your bisection stops too early, so its result is not accurate enough
     few-bisections 2: your bisection stops too early, so its result is not accurate
       enough
@@ -153,7 +153,7 @@ def _(a, b, c, limits, sd2_max):
     half-the-torque: your code uses only half of each torque limit. Use the whole limit
     never-moves: your sd^2 is 0 at every point. Check the result of the backward pass,
       and whether the forward pass uses the largest sdd
-    accelerations: your code returns sdd of each step. Return sd^2
+    accelerations: your code returns the sdd of each step. Return sd^2
     """
     given = (a, b, c, limits, sd2_max)
     right = time_optimal_profile(*given)

@@ -63,11 +63,11 @@ def _(rng):
 
 @row.wrongs
 def _(successes, n):
-    """wald: your function returns the Wald interval, p +- z sqrt(p (1 - p) / n). It
-      uses the variance at k / n, so its width is 0 for k = 0 and for k = n
+    """wald: your function returns the Wald interval, p +- z sqrt(p (1 - p) / n). This
+      interval uses the variance at k / n, so its width is 0 for k = 0 and for k = n
     wald-cut: your function returns the Wald interval, p +- z sqrt(p (1 - p) / n),
-      clamped to [0, 1]. It uses the variance at k / n, so its width is 0 for k = 0 and
-      for k = n
+      clamped to [0, 1]. This interval uses the variance at k / n, so its width is 0 for
+      k = 0 and for k = n
     centre-not-moved: your centre is k / n, but Wilson's centre is shifted towards one
       half
     width-without-z2: your code omits the term z^2 / (4 n^2) under the root
@@ -80,7 +80,7 @@ def _(successes, n):
       make the interval narrower
     ninety: your z is 1.645, which gives a 90 % interval. Use 1.96
     ninety-without-z2: your z is 1.645 instead of 1.96, and your code omits the term z^2
-      / (4 n^2) under the root
+      / (4 n^2) under the root => both
     two-sigma: your z is 2. Use 1.96
     one-sigma: your z is 1, which gives a 68 % interval. Use 1.96
     ninety-nine: your z is 2.576, which gives a 99 % interval. Use 1.96
@@ -91,18 +91,18 @@ def _(successes, n):
     four-forgotten: your root contains z^2 / n^2. It should contain z^2 / (4 n^2)
     n-for-n2: your root contains z^2 / (4 n). It should contain z^2 / (4 n^2)
     successes-for-p: your code uses k as the proportion. Use k / n
-    failures: your code returns the interval of the failures, n - k. Return the interval
-      of the successes
+    failures: your code returns the interval for the failures, n - k. Return the
+      interval for the successes
     high-first: your upper end comes first. Return the lower end first
-    high-first 2: for n > 0 your upper end comes first. Return the lower end first
+    high-first 2: for n > 0, your upper end comes first. Return the lower end first
     middle-and-width: your code returns the centre and the half-width. Return the two
       ends
-    rule-of-three: for k = 0 your upper end is 3 / n, which comes from the rule of
+    rule-of-three: for k = 0, your upper end is 3 / n, which comes from the rule of
       three, not from the Wilson interval
-    rule-of-three 2: for k = 0 your upper end is 3 / n, and for k = n your lower end is
-      1 - 3 / n. These ends come from the rule of three, not from the Wilson interval
-    rule-of-three 3: for k = 0 your upper end is 3 / n, and for k = n your lower end is
-      1 - 3 / n. These ends come from the rule of three, not from the Wilson interval
+    rule-of-three 2: for k = 0, your upper end is 3 / n, and for k = n, your lower end
+      is 1 - 3 / n. These ends come from the rule of three, not from the Wilson interval
+    rule-of-three 3: for k = 0, your upper end is 3 / n, and for k = n, your lower end
+      is 1 - 3 / n. These ends come from the rule of three, not from the Wilson interval
     plus-four: your code uses the Wald interval with p = (k + 2) / (n + 4) (Agresti and
       Coull). Use the Wilson interval
     plus-four 2: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
@@ -115,9 +115,9 @@ def _(successes, n):
       n, but it should be -(2 k / n + z^2 / n)
     quadratic-z2: your quadratic equation for p has the coefficient -(2 k / n + z^2),
       but it should be -(2 k / n + z^2 / n)
-    half-width: your interval has half of the correct width. The half-width should be
-      added and subtracted
-    one-is-none: for n = 1 your code returns (0, 1), but only n = 0 is a special case
+    half-width: your interval is half as wide as it should be. Add and subtract the
+      whole half-width
+    one-is-none: for n = 1, your code returns (0, 1), but only n = 0 is a special case
     """
     k, trials = successes, n
     n = n or 1  # of no trial see below
@@ -192,7 +192,7 @@ def _(successes, n):
 
 @row.wrong
 def none_divides(successes, n):
-    """for n = 0 your code divides by 0. Return (0, 1), because no proportion can be
+    """for n = 0, your code divides by 0. Return (0, 1), because no proportion can be
     excluded"""
     with np.errstate(all="ignore"):
         k, n = np.float64(successes), np.float64(n)
@@ -203,7 +203,7 @@ def none_divides(successes, n):
 
 @row.wrong("none-divides")
 def _(successes, n):
-    """for n = 0 your code returns another result. Return (0, 1), because no proportion
+    """for n = 0, your code returns another result. Return (0, 1), because no proportion
     can be excluded"""
     return np.zeros(2) if n == 0 else wilson_interval(successes, n)
 

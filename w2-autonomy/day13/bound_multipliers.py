@@ -19,30 +19,32 @@ def _(rng):
 
 @row.wrongs
 def _(H, f, lo, hi, x):
-    """sign: your code reverses the signs. If a bound moves in the direction of the
-      gradient, the cost increases
-    absolute: your code loses the signs. If an upper bound moves up, the cost falls
+    """sign: your multipliers have the opposite signs. If a bound moves in the direction
+      of the gradient, the cost increases
+    absolute: your multipliers have lost their signs. If an upper bound moves up, the
+      cost falls, so the multiplier is negative
     upper-only: your code returns nonzero multipliers only for the upper bounds. A lower
-      bound that holds an entry has a multiplier too
+      bound that holds an entry has a nonzero multiplier too
     lower-only: your code returns nonzero multipliers only for the lower bounds. An
-      upper bound that holds an entry has a multiplier too
+      upper bound that holds an entry has a nonzero multiplier too
     no-price: your multipliers of the held entries are 0. The multiplier of a held entry
       should be its gradient
     largest-only: your code returns only the largest multiplier. Each held entry should
-      have its own
+      have its own multiplier
     first-limit-only: your code returns a multiplier only for the first held entry. Each
-      held entry should have its own
+      held entry should have its own multiplier
     times-the-width: your code multiplies the gradient by the distance between the
-      bounds. The multiplier should be the change of the cost per unit of the bound
+      bounds. The multiplier should be the change in the minimum cost per unit of
+      movement of the bound
     lower-sign: your multipliers of the lower bounds have the wrong sign. A multiplier
       should be the gradient itself
-    g-forgotten: your code omits f in the gradient, which is H x + f
+    g-forgotten: your gradient omits f. It should be H x + f
     H-halved: your gradient is H x / 2 + f. The gradient of x . H x / 2 is H x
     H-doubled: your gradient is 2 H x + f. The gradient of x . H x / 2 is H x
     divided-by-H: your code divides the gradient by the diagonal of H, which gives a
-      distance, not a cost
+      distance. Return the gradient itself
     how-far: your result is the distance to the unconstrained minimiser. The multiplier
-      should be the change of the minimum cost
+      should be the change in the minimum cost per unit of movement of the bound
     one-each: your result contains only the sign of each multiplier. Return the gradient
       of each held entry
     """

@@ -20,9 +20,10 @@ def _(rng):
 
 @row.wrongs
 def _(dV, alpha):
-    """sign: your code reverses the sign. A reduction is positive if the cost falls
+    """sign: your result has the opposite sign. A reduction is positive if the cost
+      falls
     alpha-rooted: your code multiplies the quadratic part by the square root of alpha.
-      It should be multiplied by alpha^2
+      Multiply it by alpha^2
     """
     first, second = dV
     return {

@@ -72,17 +72,17 @@ def by_pairs(J_space, masses, coms, g, *, first=max, swapped=False):
 
 @row.wrongs
 def _(J_space, masses, coms, g):
-    """sign: your code reverses the sign. Relative to the rotated links, gravity rotates
-      in the opposite direction, so use g x omega instead of omega x g
+    """sign: your result has the opposite sign. Relative to the rotated links, gravity
+      rotates in the opposite direction, so use g x omega instead of omega x g
     gravity-not-turned: your code uses g instead of g x omega, so each column is the
       gravity torque itself. The stiffness is its derivative
     gravity-not-turned 2: your code uses g instead of g x omega, so each column is the
       gravity torque itself. The stiffness is its derivative
     g-times-omega: your code multiplies g and omega entry by entry. Use the cross
       product g x omega
-    link-i-only: your row i contains the weight of link i only. Joint i also carries the
-      links that are distal to it
-    only-links-after: your row i leaves out the weight of link i. Joint i moves link i,
+    link-i-only: your row i contains only the weight of link i. Joint i also carries all
+      links distal to it
+    only-links-after: your row i leaves out the weight of link i. Joint i moves link i
       too
     all-links: your row i contains the weights of all links. Joint i does not carry the
       links before it
@@ -97,23 +97,23 @@ def _(J_space, masses, coms, g):
     upper-half-sign: your entries above the diagonal have the wrong sign. The matrix
       should be symmetric
     half-beside-the-diagonal: your code halves the off-diagonal entries, because it
-      takes the mean of a lower triangular matrix and its transpose. One of the two is 0
-      there
+      takes the mean of a lower triangular matrix and its transpose. Off the diagonal,
+      one of the two matrices is 0
     diagonal-zero: your diagonal is 0. The lower triangle should include the diagonal
-    not-symmetrised: your code also uses the formula above the diagonal. It holds for i
-      >= j only, because there joint j rotates every link that joint i carries. Copy the
-      lower triangle to the upper one
+    not-symmetrised: your code also uses the formula above the diagonal. The formula
+      holds only for i >= j, because then joint j rotates every link that joint i
+      carries. Copy the lower triangle to the upper one
     not-symmetrised 2: your code also uses the formula above the diagonal and transposes
-      the result. The formula holds for i >= j only, so copy the lower triangle to the
+      the result. The formula holds only for i >= j, so copy the lower triangle to the
       upper one
     averaged: your code averages the two triangles, but only the lower one is correct.
       Copy it to the upper one
-    other-half: your code computes the upper triangle and copies it. There joint i comes
-      before joint j, but g x omega_j holds for i >= j only
+    other-half: your code computes the upper triangle and copies it. The formula with g
+      x omega_j holds only for i >= j, so compute the lower triangle
     diagonal-doubled: your code doubles the diagonal, because both of the triangles that
       you add contain it
-    diagonal-only: your entries off the diagonal are all 0, but the rotation of one
-      joint also changes the torque at other joints
+    diagonal-only: your off-diagonal entries are all 0, but the rotation of one joint
+      also changes the torque at other joints
     only-z: your code uses only the z component of g, but gravity may point in any
       direction
     minus-9.81: your code replaces g by (0, 0, -9.81), but gravity may point in any
@@ -125,7 +125,7 @@ def _(J_space, masses, coms, g):
     axes-summed: your column j rotates gravity about the sum of all axes up to joint j,
       but only joint j rotates
     g-along-omega: your code uses the component of g along omega instead of g x omega
-    total-mass: every link in your code has the mass of the whole arm. Use the mass of
+    total-mass: your code uses the mass of the whole arm for every link. Use the mass of
       each link
     differences: your result is a finite difference of the torque with the large step of
       0.05 rad. The stiffness is the derivative
@@ -133,17 +133,16 @@ def _(J_space, masses, coms, g):
       joint. Column j should use the axis of joint j
     z-axis: every column of your matrix rotates gravity about z. Column j should use the
       axis of joint j
-    turned-twice: your code rotates gravity twice, by omega_i and by omega_j. Rotate it
-      by omega_j alone
+    turned-twice: your code rotates gravity twice, by omega_i and by omega_j. Rotate
+      gravity only by omega_j
     v-for-omega: your code rotates gravity by v_j. The rotation axis of a joint is
       omega_j, the upper three rows of J_space
     torque-added: your code adds g to g x omega_j, which adds the gravity torque itself.
       The stiffness is its derivative
     distal-joints-too: each of your entries also contains links that only one of the two
-      joints moves. Joints i and j both move the links from the later joint on
+      joints moves. Use only the links from the later joint on, which both joints move
     roles-swapped: your code swaps the two joints. The later joint moves the centre of
-      mass, and the earlier one rotates this velocity, because it comes first in the
-      chain
+      mass, and the earlier joint rotates this velocity
     screws-stay: in your code, joint j moves only the centres of mass. It should also
       move the axes of the joints after it
     """

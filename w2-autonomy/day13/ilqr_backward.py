@@ -79,35 +79,40 @@ def sum_of(k, luu):
 
 @row.wrongs
 def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
-    """mu-in-k-only: your code uses mu only in k. Add it to Quu wherever Quu appears
-    mu-in-k-only 2: your code omits mu in K. Add it to Quu wherever Quu appears
-    mu-in-K-only: your code omits mu in k. Add it to Quu wherever Quu appears
+    """mu-in-k-only: your code uses mu only in k. Add mu to Quu wherever the equations
+      contain Quu
+    mu-in-k-only 2: your code omits mu in K. Add mu to Quu wherever the equations
+      contain Quu
+    mu-in-K-only: your code omits mu in k. Add mu to Quu wherever the equations contain
+      Quu
     mu-squared: your code squares mu. Add mu itself to the diagonal of Quu
     mu-not-in-V: your code omits mu in Vx and Vxx. Use the same Quu as in the gains
     mu-not-in-V 2: your code omits mu in Vx, Vxx and `drop`. Use the same Quu as in the
       gains
     mu-not-in-the-drop: your code omits mu in `drop`. Use the same Quu as in the gains
-    mu-on-Vxx: your code adds mu to Vxx. Add it to the diagonal of Quu
-    mu-on-Vxx 2: your code adds mu to Vxx in Quu. Add it to the diagonal of Quu itself
-    Vx-not-passed-on: every step in your code uses Vx of the final cost. Update it in
+    mu-on-Vxx: your code adds mu to Vxx. Add mu to the diagonal of Quu
+    mu-on-Vxx 2: your code adds mu to Vxx inside Quu. Add mu to the diagonal of Quu
+      itself
+    Vx-not-passed-on: your code uses Vx of the final cost in every step. Update Vx in
       each step
-    Vxx-not-passed-on: every step in your code uses Vxx of the final cost. Update it in
+    Vxx-not-passed-on: your code uses Vxx of the final cost in every step. Update Vxx in
       each step
     V-signs: your `Vx` and `Vxx` are Qx - Qux^T k and Qxx - Qux^T K. The minus sign is
       already in k and K
-    nothing-saved: your `Vx` and `Vxx` are Qx and Qxx. They lack the terms with the
-      gains, which reduce the cost
-    drop-last-step: your `drop` holds the values of one step only. Sum them over all
+    nothing-saved: your `Vx` and `Vxx` are Qx and Qxx. Add the terms with the gains,
+      which reduce the cost
+    drop-last-step: your `drop` contains the values of only one step. Sum them over all
       steps
     half-in-the-first: your code halves the first entry of `drop`. Only the second entry
       has a factor 1/2
-    drop-summed: your code adds the two entries of `drop`. Return them separately
+    drop-summed: your `drop` is the sum of its two entries. Return them separately
     drop-of-lu: your first entry of `drop` uses lu. It should be the sum of k . Qu
     drop-of-luu: your second entry of `drop` uses luu. It should be the sum of k . Quu k
       / 2
-    drop-signs: your `drop` has the wrong sign. It should be the change of the cost, so
-      k . Qu is negative
-    drop-added: both entries of your `drop` are their sum. Return them separately
+    drop-signs: your `drop` has the wrong sign. It should be the change in cost, so k .
+      Qu is negative
+    drop-added: both entries of your `drop` are the sum of the two. Return the two
+      entries separately
     drop-quadratic-sign: the second entry of your `drop` has the wrong sign. It should
       be the sum of k . Quu k / 2, which raises the cost if Quu is positive definite
     gain-signs: your k and K have the wrong sign. The input changes by du = k + K dx
@@ -120,22 +125,22 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       matrix
     last-step-left-out: your code leaves out the last step, so its k and K are 0
     first-step-left-out: your code leaves out the first step, so its k and K are 0
-    forwards: your pass goes from the first step to the last. Only the final cost-to-go
-      is known, so begin with the last step
-    lux-not-in-K: your code omits lux in K, but not in Vx and Vxx. Use Qux
-    Vx-not-in-k: your k uses lu alone. Qu also contains fu^T Vx
-    mu-halved-each-step: your code halves mu in each step. It should be the same in all
-      steps
+    forwards: your pass goes from the first step to the last. At first, only the
+      cost-to-go of the final state is known, so begin with the last step
+    lux-not-in-K: your code omits lux in K, but not in Vx and Vxx. Use Qux, which
+      contains lux, in all of them
+    Vx-not-in-k: your k uses only lu. Qu also contains fu^T Vx
+    mu-halved-each-step: your code halves mu in each step. Use the same mu in all steps
     lx-of-the-next: each step in your code uses lx of the next step. Use lx of the same
       step
     drop-mean: your code divides `drop` by the number of steps. It should be the sum
       over the steps
     drop-halved: your code halves both entries of `drop`. Only the second entry has a
       factor 1/2
-    first-slopes: every step in your code uses fx and fu of the first step. Use those of
-      the same step
-    last-slopes: every step in your code uses fx and fu of the last step. Use those of
-      the same step
+    first-slopes: your code uses fx and fu of the first step in every step. Use fx and
+      fu of the same step
+    last-slopes: your code uses fx and fu of the last step in every step. Use fx and fu
+      of the same step
     K-reversed: your k and K are in reverse order. The first step should come first
     K-reversed 2: your k is in reverse order. The first step should come first
     K-reversed 3: your K is in reverse order. The first step should come first

@@ -40,29 +40,30 @@ def clipped_first(H, f, lo, hi, x):
 
 @row.wrongs
 def _(H, f, lo, hi, x):
-    """gradient-only: your result is the largest entry of the gradient. At the minimiser
-      the gradient of a held entry is not 0, so clamp the step to the bounds
-    no-abs-the-other-way: your code omits the absolute value, so your function ignores
-      an entry that decreases
+    """gradient-only: your result is the largest entry of the gradient. At the
+      minimiser, the gradient of an entry that is held at a bound need not be 0, so
+      clamp the step to the bounds
+    no-abs-the-other-way: your code omits the absolute value, so it ignores every entry
+      that decreases
     not-compared: your result is the clamped point itself. Compare it with x
-    free-only: your code uses only entries between their bounds. An entry at a bound
-      also contributes if the gradient pulls it away from the bound
-    lower-only: your code clamps the step at the lower bounds only. Clamp it at the
+    free-only: your code uses only the entries that are between their bounds. An entry
+      at a bound also contributes if the negative gradient points away from the bound
+    lower-only: your code clamps the step only at the lower bounds. Clamp it at the
       upper bounds too
-    upper-only: your code clamps the step at the upper bounds only. Clamp it at the
+    upper-only: your code clamps the step only at the upper bounds. Clamp it at the
       lower bounds too
-    cost-gap: your result is the decrease of the cost by the clamped step. The residual
-      should be the largest change of an entry of x
+    cost-gap: your result is the decrease in cost that the clamped step causes. The
+      residual should be the largest change of an entry of x
     first-only: your code uses only the first entry. Use the entry that changes most
     last-only: your code uses only the last entry. Use the entry that changes most
     share-of-x: your code divides the residual by the largest entry of x if this entry
       is above 1. Do not divide the residual
-    distance: your result is the distance to the minimiser. Compute the residual without
-      the minimiser
+    distance: your result is the distance to the minimiser. Compute the residual from
+      the gradient at x, without the minimiser
     newton-push: in your code, x moves by a Newton step. It should move by minus the
       gradient
-    jacobi-push: in your code, x moves by the gradient over the diagonal of H. It should
-      move by minus the gradient itself
+    jacobi-push: in your code, x moves by the gradient divided by the diagonal of H. It
+      should move by minus the gradient itself
     limits-swapped: your code swaps the lower and the upper bounds. The lower bounds
       come first
     two-pushes: in your code, x moves by twice the gradient. It should move by minus the
@@ -71,17 +72,19 @@ def _(H, f, lo, hi, x):
       gradient
     unit-box: your code replaces the bounds by -1 and 1. Use the arguments lo and hi
     which-one: your result is the index of the largest difference. Return the absolute
-      value of this difference
+      difference itself
     clipped-for-the-difference: your code compares the new point with the clamped x.
       Compare it with x itself
-    clipped-first: your code clamps x first, so the residual ignores the distance of x
+    clipped-first: your code first clamps x, so the residual ignores the distance of x
       from the box
-    slope-that-counts: your result is the largest entry of the gradient that no bound
-      opposes. Clamp the step, because it may also meet the opposite bound
-    slope-that-counts 2: your result is the largest entry of the gradient that no bound
-      opposes. Clamp the step, because it may also meet the opposite bound
-    signed-limit: your code ignores the gradient of every entry at a bound. Ignore it
-      only where it pushes the entry out of the box
+    slope-that-counts: your result is the largest gradient entry that does not push
+      against an active bound. Clamp the step to both bounds, because it may also reach
+      the opposite bound
+    slope-that-counts 2: your result is the largest gradient entry that does not push
+      against an active bound. Clamp the step to both bounds, because it may also reach
+      the opposite bound
+    signed-limit: your code ignores the gradient of every entry at a bound. Ignore the
+      gradient only where its negative points out of the box
     """
     s = H @ x + f
     d = x - np.clip(x - s, lo, hi)

@@ -27,32 +27,32 @@ def _(rng):
 
 @row.wrongs
 def _(P, A, B, Q, R):
-    """R-forgotten: your code omits R in the gain, so torque has no cost. Solve with R +
-      B^T P B
-    R-once: your code omits the cost of the input in P. The form (A - B K)^T P (A - B K)
-      also needs K^T R K
+    """R-forgotten: your gain omits R, so the torque has no cost. Solve with R + B^T P B
+    R-once: your P omits the cost of the input. The form (A - B K)^T P (A - B K) also
+      needs K^T R K
     u-counted-twice: your code counts the cost of the input twice. The form Q + A^T P (A
       - B K) already contains K^T R K
-    K-of-the-new-P: your code computes the gain from the P that you return. It needs the
-      P that you were given, the cost-to-go of the next state
-    gain-sign: your K has the wrong sign. The minus sign is already in u = -K x
-    A-P-AT: your code uses `A P A^T` instead of A^T P A. The first propagates a
-      covariance, the second a cost-to-go
-    Q-for-P: your code uses Q instead of P in the gain
-    Q-in-the-gain: your code adds Q to P in the gain. The cost x . Q x of this step does
+    K-of-the-new-P: your code computes the gain from the new P. Use the argument P,
+      which is the cost-to-go of the next state
+    gain-sign: your K has the wrong sign, because the minus sign is already in u = -K x
+    A-P-AT: your code uses `A P A^T` instead of A^T P A. The first form propagates a
+      covariance, and the second one a cost-to-go
+    Q-for-P: your gain uses Q instead of P, the cost-to-go of the next state
+    Q-in-the-gain: your gain uses P + Q instead of P. The cost x . Q x of this step does
       not depend on u
-    K-R-K-subtracted: your code subtracts K^T R K. The input reduces the cost-to-go by
-      K^T (R + B^T P B) K
-    motion-forgotten: your code omits the cost-to-go of the next state in P. Add (A - B
-      K)^T P (A - B K)
-    P-forgotten-and-R: your new P is Q + (A - B K)^T (A - B K). It lacks the old P
-      between the two factors and the cost K^T R K of the input
-    K-K-subtracted: your code subtracts K^T K. It should subtract K^T (R + B^T P B) K,
-      because the optimal input reduces the cost-to-go by this term
-    K-K-added: your code adds K^T K. It should add K^T R K, which is the cost of the
-      input
-    P-not-updated: your code returns P unchanged. Return the cost-to-go one step earlier
-    P-halved: your P is half as large as it should be
+    K-R-K-subtracted: your code subtracts K^T R K. Subtract K^T (R + B^T P B) K, by
+      which the optimal input reduces the cost-to-go
+    motion-forgotten: your P omits the cost-to-go of the next state. Add (A - B K)^T P
+      (A - B K)
+    P-forgotten-and-R: your new P is Q + (A - B K)^T (A - B K). This sum omits the old P
+      between the two factors and the cost K^T R K of the input => both
+    K-K-subtracted: your code subtracts K^T K. Subtract K^T (R + B^T P B) K, by which
+      the optimal input reduces the cost-to-go
+    K-K-added: your code adds K^T K. Add K^T R K, which is the cost of the input
+    P-not-updated: your code returns P unchanged. Return the cost-to-go matrix of one
+      step earlier
+    P-halved: your P is half as large as it should be. The cost of this day has no
+      factor 1/2
     """
     F = B.T @ P @ A
     right, K = riccati_step(P, A, B, Q, R)

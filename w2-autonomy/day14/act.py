@@ -36,15 +36,18 @@ def _(theta, observation):
       in the frame of the observed cube, so rotate it by the yaw of the observation
     turned-with-the-hand: your code rotates the shift by the yaw of the hand. The shift
       is expressed in the frame of the cube, so rotate it by the yaw of the observation
-    clipped-after: your code clips the action. Clip theta before you use it
-    clipped-below-only: your code clips theta to LOW only. Clip it to HIGH, too
-    clipped-above-only: your code clips theta to HIGH only. Clip it to LOW, too
-    half-clipped: your code clips only the last three entries of theta. Clip all of them
-    shift-forgotten: your code omits the shift
+    clipped-after: your code clamps the action. Clamp theta before you use it
+    clipped-below-only: your code clamps theta only at LOW. Clamp it at HIGH too
+    clipped-above-only: your code clamps theta only at HIGH. Clamp it at LOW too
+    half-clipped: your code clamps only the last three entries of theta. Clamp all of
+      them
+    shift-forgotten: your code omits the shift, which the first two entries of theta
+      contain
     x-shift-only: your code omits the shift along the y axis of the cube
-    opening-and-height-swapped: your code swaps height and opening. The order should be
-      (x, y, yaw, height, opening, lift)
-    lift-from-the-floor: your code adds the height to the lift. The two are independent
+    opening-and-height-swapped: your code swaps the height and the opening. The order
+      should be (x, y, yaw, height, opening, lift)
+    lift-from-the-floor: your code adds the height to the lift. Return the lift itself,
+      because the two are independent
     """
     t = np.clip(theta, LOW, HIGH)
     right = act(theta, observation)

@@ -58,32 +58,35 @@ def of_best(samples, best):
 
 @row.wrongs(hidden={"nan-is-zero": "no NaN of the lab has a score below 0 beside it"})
 def _(mean, std, noise, scores, elite):
-    """nan-first: your code takes a NaN into the elite. np.argsort puts NaN last, so
-      [::-1] puts it first
-    nan-first 2: your code takes a NaN into the elite. np.argsort puts NaN last, so
-      [::-1] puts it first
-    nan-first 3: your code takes a NaN into the elite. np.argsort puts NaN last, so
-      [::-1] puts it first. It also reverses the order of equal scores
-    ties-last-first: of equal scores, your code keeps the last ones. Keep the first ones
-    std-kept: your std is unchanged. Return the standard deviation of the elite
+    """nan-first: your elite contains a sample with the score NaN. The function
+      np.argsort sorts NaN last, so [::-1] puts it first
+    nan-first 2: your elite contains a sample with the score NaN. The function
+      np.argsort sorts NaN last, so [::-1] puts it first
+    nan-first 3: your elite contains a sample with the score NaN. The function
+      np.argsort sorts NaN last, so [::-1] puts it first and also reverses the order of
+      equal scores
+    ties-last-first: your code keeps the last of several equal scores. Keep the first
+      ones
+    std-kept: your `std` is unchanged. Return the standard deviation of the elite
     n-minus-one: your standard deviation divides by elite - 1. Divide by elite
     about-the-old-mean: your code takes the standard deviation about the old mean. Take
       it about the mean of the elite
     one-spread-for-all: all parameters in your result have the same standard deviation.
       Each should have its own, so use axis=0
-    best-left-out: your code leaves out the best sample, and its elite begins with the
-      second
-    nan-is-zero: your code treats a NaN as a score of 0. It is worse than all other
+    best-left-out: your code leaves out the best sample, so the elite begins with the
+      second one
+    nan-is-zero: your code treats NaN as a score of 0. Treat NaN as worse than all other
       scores
     elite-one-less: your elite has one sample too few. Does your slice end too early?
-    weighted: your code weights the elite samples by their rank. All should have the
-      same weight
-    weighted 2: your code weights the elite samples by their scores. All should have the
-      same weight
+    weighted: your code weights the elite samples by their rank. All elite samples
+      should have the same weight
+    weighted 2: your code weights the elite samples by their scores. All elite samples
+      should have the same weight
     weighted 3: your code weights the mean by the scores. All elite samples should have
       the same weight
     median: your code replaces the mean by the median. Return the mean of the elite
-    halves-swapped: your code swaps mean and std. The mean should come first
+    halves-swapped: your code swaps the mean and the standard deviation. The mean should
+      come first
     """
     samples = mean + std * noise
     n = len(scores)

@@ -98,17 +98,17 @@ def _(W, weights):
       rank must be 6
     zero-weights-do: your code accepts a weight of 0. Every weight must be above 0
     sign-forgotten: your code accepts weights below 0, but a finger cannot pull
-    some-weight-above-0: your code accepts the weights if one of them is above 0. Every
+    some-weight-above-0: your code accepts the weights if at least one is above 0. Every
       weight must be above 0
     balance-forgotten: your code does not test the condition W w = 0
-    balance-absolute: your tolerance of W w is absolute, as in np.allclose(W @ weights,
+    balance-absolute: your tolerance for W w is absolute, as in np.allclose(W @ weights,
       0), so the answer depends on the units. It should be 1e-9 of the sum of |W_ij w_j|
-    balance-roughly: your tolerance of W w is 1e-4 of the sum of |W_ij w_j|. It should
-      be 1e-9 of the sum
-    balance-of-all: your code uses one tolerance for all rows of W w, made of their norm
-      or of their sum. Compare each row with 1e-9 of its own sum of |W_ij w_j|
-    first-row-only: your code tests only the first row of W w. All six must be 0
-    balance-without-weights: your tolerance of W w is 1e-9 of the largest entry of each
+    balance-roughly: your tolerance for W w is 1e-4 of the sum of |W_ij w_j|. It should
+      be 1e-9 of this sum
+    balance-of-all: your code uses one tolerance for all rows of W w, computed from
+      their norm or their sum. Compare each row with 1e-9 of its own sum of |W_ij w_j|
+    first-row-only: your code tests only the first row of W w. All six rows must be 0
+    balance-without-weights: your tolerance for W w is 1e-9 of the largest entry of each
       row. It should be 1e-9 of the sum of |W_ij w_j|
     rank-absolute: your code compares the singular values with 1e-9, so the answer
       depends on the units. Compare them with 1e-9 times the largest singular value
@@ -116,14 +116,14 @@ def _(W, weights):
       units. Compare the singular values with 1e-9 times the largest one
     nothing-may-be-left: your code tests whether W w is exactly 0. Rounding leaves about
       1e-16 even if the forces balance, so compare W w with a tolerance
-    rank-by-rounding: your rank uses NumPy's default tolerance. It should be 1e-9 times
-      the largest singular value
+    rank-by-rounding: your rank uses NumPy's default tolerance. The tolerance should be
+      1e-9 times the largest singular value
     weights-not-used: your code adds the columns of W without their weights. Test W w
       instead
-    forces-only: your code tests only the forces. The moments must balance, too
-    moments-only: your code tests only the moments. The forces must balance, too
-    sum-of-all: your code adds all components of W w, so they can cancel. Test each row
-      by itself
+    forces-only: your code tests only the forces. The moments must balance too
+    moments-only: your code tests only the moments. The forces must balance too
+    sum-of-all: your code adds all components of W w, so they can cancel. Test each
+      component separately
     always-true: your result is always True. Test the rank, the weights and W w
     always-false: your result is always False. Test the rank, the weights and W w
     """

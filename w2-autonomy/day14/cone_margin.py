@@ -58,8 +58,8 @@ def _(force, normal, mu):
       the finger, into the cube
     margin-of-the-first: every contact in your result has the margin of the first. Each
       contact should have its own margin
-    over-the-cone: your result is the distance from the surface of the cone. The margin
-      should not be divided by sqrt(1 + mu^2)
+    over-the-cone: your result is the distance from the surface of the cone. Do not
+      divide the margin by sqrt(1 + mu^2)
     """
     press = np.sum(force * normal, axis=1)
     along = force - press[:, None] * normal

@@ -26,12 +26,12 @@ def stacked(blocks):
 @row.wrongs
 def _(points, centre):
     """centre-forgotten: your moments are about the origin of the world frame. They
-      should be about the centre
+      should be about the argument `centre`
     moment-sign: your moments have the wrong sign. The lever arm should be p - c, and
-      its skew matrix should not be transposed
+      its skew-symmetric matrix should not be transposed
     halves-swapped: your code swaps force and moment. A wrench should be (moment, force)
     arm-on-the-diagonal: your code puts p - c on the diagonal, but a cross product needs
-      the skew matrix
+      the skew-symmetric matrix
     added-up: your code adds the blocks of all points. Each point should have three
       columns of its own
     components-together: your code sorts the columns by component, with all x first. The
@@ -39,11 +39,11 @@ def _(points, centre):
     moments-only: your lower three rows are 0. They should contain the forces
     forces-only: your upper three rows are 0. They should contain the moments
     about-the-mean: your moments are about the mean of the points. They should be about
-      the centre
+      the argument `centre`
     forces-negative: your forces have the wrong sign. They should act on the cube, not
       on the fingers
-    forces-over-n: your code divides the forces by the number of points. Leave them
-      unchanged
+    forces-over-n: your code divides the forces by the number of points. Do not divide
+      them
     """
     arms = points - centre
     one = np.eye(3)

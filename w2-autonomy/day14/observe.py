@@ -53,7 +53,7 @@ def fold(yaw, period=QUARTER):
 @row.wrongs
 def _(T_seen, noise):
     """not-folded: your code does not reduce the yaw. A cube looks the same after a
-      quarter turn, so reduce the yaw modulo pi/2
+      rotation by pi/2, so reduce the yaw modulo pi/2
     folded-to-0-to-90: your code reduces the yaw to [0, pi/2). It should be in [-pi/4,
       pi/4)
     folded-by-pi: your code reduces the yaw modulo pi, but a cube already looks the same
@@ -64,16 +64,16 @@ def _(T_seen, noise):
       rotated further than that
     noise-after-the-fold: your code adds the noise after the reduction, so the yaw can
       leave [-pi/4, pi/4). Add the noise first
-    fmod: your code uses np.fmod, which is negative for a negative number. Use % or
-      np.mod
-    transposed: your yaw has the wrong sign, as from the transposed rotation matrix. Use
-      the first column of R
+    fmod: your code uses np.fmod, whose result is negative for a negative argument. Use
+      % or np.mod
+    transposed: your yaw has the wrong sign, as if it came from the transposed rotation
+      matrix. Use the first column of R
     arccosine: your yaw is arccos(R[0, 0]), which has no sign. Use both entries of the
       first column
-    arcsine: your yaw is arcsin(R[1, 0]), which ends at a quarter turn on either side.
-      Use both entries of the first column
-    noise-in-the-cubes-axes: your code rotates the noise into the frame of the cube. It
-      should be added to x and y in the world frame
+    arcsine: your yaw is arcsin(R[1, 0]), which covers only the range from -pi/2 to
+      pi/2. Use both entries of the first column
+    noise-in-the-cubes-axes: your code rotates the noise into the frame of the cube. Add
+      the noise to x and y in the world frame
     x-and-y-swapped: your code swaps x and y. The order should be (x, y, yaw)
     yaw-first: your yaw comes first. The order should be (x, y, yaw)
     """

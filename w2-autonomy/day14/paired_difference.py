@@ -22,7 +22,7 @@ def _(rng):
 @row.wrongs
 def _(first, second):
     """unpaired: your code adds the variances of the two policies, as for independent
-      samples. Both ran on the same cubes, so use the standard deviation of the
+      samples. Both policies ran on the same cubes, so use the standard deviation of the
       differences
     n-minus-one: your standard deviation divides by n - 1. Divide by n
     n-minus-one 2: your standard error divides by sqrt(n - 1). Divide by sqrt(n)
@@ -31,7 +31,8 @@ def _(first, second):
     interval: your second result is 1.96 standard errors. Return one standard error
     which-differ: your first result is the fraction of the cubes on which the two
       policies differ. Return the mean difference
-    sorted: your code sorts both lists, so the pairs are lost
+    sorted: your code sorts both lists, so the pairs are lost. Keep the order of the
+      lists
     """
     a = np.asarray(first, float)
     b = np.asarray(second, float)

@@ -35,32 +35,33 @@ def _(rng):
 
 @row.wrongs
 def _(heights, target, cap):
-    """no-cap: your reward of a height above the cap is 1. The cube was thrown, so the
+    """no-cap: your reward for a height above the cap is 1. The cube was thrown, so the
       reward should be -1
-    no-cap 2: your reward of a height above the cap is 1. The cube was thrown, so the
+    no-cap 2: your reward for a height above the cap is 1. The cube was thrown, so the
       reward should be -1
-    below-the-floor-is-lost: your reward of a height below the floor is -1. It should be
-      0
-    nan-passes: your reward of NaN is NaN, because every comparison with NaN is False.
+    below-the-floor-is-lost: your reward for a height below the floor is -1. It should
+      be 0
+    nan-passes: your reward for NaN is NaN, because every comparison with NaN is False.
       Test with np.isfinite
-    nan-passes 2: your reward of NaN is NaN, and minus infinity has the reward 0. Test
+    nan-passes 2: your reward for NaN is NaN, and minus infinity gets the reward 0. Test
       with np.isfinite
-    nan-is-zero: your reward of NaN is 0. It should be -1, because the simulation failed
-    infinity-passes: your reward of minus infinity is 0. It should be -1 for every
+    nan-is-zero: your reward for NaN is 0. It should be -1, because the simulation
+      failed
+    infinity-passes: your reward for minus infinity is 0. It should be -1 for every
       height that is not finite
-    thrown-is-zero: your reward of a height above the cap is 0. It should be -1
-    success-only: your reward is 0 or 1. Below the target the reward should rise
+    thrown-is-zero: your reward for a height above the cap is 0. It should be -1
+    success-only: your reward is 0 or 1. Below the target, the reward should rise
       linearly with the height
-    success-only 2: your reward is 0 or 1. Below the target the reward should rise
+    success-only 2: your reward is 0 or 1. Below the target, the reward should rise
       linearly with the height
-    not-limited: your reward of a height above the target is above 1. It should be 1
-    below-the-floor: your reward of a height below the floor is below 0. It should be 0
-    thrown-is-minus-cap: your reward of a height above the cap is minus the height. It
+    not-limited: your reward for a height above the target is above 1. It should be 1
+    below-the-floor: your reward for a height below the floor is below 0. It should be 0
+    thrown-is-minus-cap: your reward for a height above the cap is minus the height. It
       should be -1
     cap-for-target: your code divides the height by the cap. Divide it by the target
     cap-for-target 2: below the target, your code divides the height by the cap. Divide
       it by the target
-    halved: your reward on the floor is -1. It should be 0
+    halved: your reward for a cube on the floor is -1. It should be 0
     one-minus: your result is 1 minus the reward. Return the reward itself
     nothing-lost: your code leaves out episodes with NaN or with a height above the cap.
       Each episode should have a reward

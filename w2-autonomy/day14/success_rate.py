@@ -36,7 +36,8 @@ def _(success):
       (rate, low, high)
     half-width: your last two results are the distances of the ends from the rate.
       Return the ends themselves
-    failures: your code computes the interval from the failures. Count the successes
+    failures: your code computes the interval from the number of failures. Use the
+      number of successes
     one-sided: your interval uses 1.645, which gives 90 %. A 95 % interval needs 1.96
     ninety-nine: your interval uses 2.576, which gives 99 %. A 95 % interval needs 1.96
     n-less-one: your code divides the results by n - 1. Divide by n

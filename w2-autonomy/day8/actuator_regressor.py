@@ -24,7 +24,7 @@ def slow(case: Case) -> Finding | None:
         if (np.diff(own[np.argsort(np.abs(qd).ravel())]) < -1e-9).any():
             return None  # it does not grow with the velocity
     says = "In your result, a slow joint has less dry friction than a fast one. "
-    says += "Only the sign of dry friction depends on the velocity, not its magnitude."
+    says += "The velocity determines only the sign of dry friction, not its magnitude."
     return Finding("slow-left-out", says)
 
 
@@ -52,18 +52,17 @@ def side_by_side(*blocks):
 
 
 for slug, says, blocks in (
-    ("smoothed", "your dry friction is tanh(qd / 0.1), a smoothed sign. The task asks "
-                 "for the sign of qd itself",
+    ("smoothed", "your dry friction is tanh(qd / 0.1), a smoothed sign. Use the sign "
+                 "of qd itself",
      lambda qd, qdd: (qdd, qd, np.tanh(qd / 0.1))),
     ("sign-at-rest",
-     "your dry friction of a joint at rest is 1, but the sign of 0 is 0",
+     "your dry friction is 1 for a joint at rest, but the sign of 0 is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd < 0.0, -1.0, 1.0))),
     ("sign-at-rest-negative",
-     "your dry friction of a joint at rest is -1, but the sign of 0 is 0",
+     "your dry friction is -1 for a joint at rest, but the sign of 0 is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
-    ("sign-at-rest-of-qdd", "your dry friction of a joint at rest has the sign of the "
-                            "joint's acceleration. The task asks for the sign of qd, "
-                            "which is 0",
+    ("sign-at-rest-of-qdd", "your dry friction has the sign of qdd for a joint at "
+                            "rest. Use the sign of qd, which is 0 there",
      lambda qd, qdd: (qdd, qd, np.where(qd == 0.0, np.sign(qdd), np.sign(qd)))),
     ("slow-left-out", "your dry friction is 0 for a slow joint, but the magnitude of "
                       "dry friction does not depend on the velocity",
@@ -71,8 +70,8 @@ for slug, says, blocks in (
     ("dry-one-way", "your dry friction is 0 where qd is negative. It should be -1 "
                     "there",
      lambda qd, qdd: (qdd, qd, np.maximum(np.sign(qd), 0.0))),
-    ("dry-forgotten", "your seven columns of dry friction are 0. They should contain "
-                      "the signs of the joints' velocities",
+    ("dry-forgotten", "your seven columns for dry friction are 0. Their diagonal "
+                      "should contain the signs of qd",
      lambda qd, qdd: (qdd, qd, 0 * qd)),
 ):  # fmt: skip
     row.wrong(slug, says)(lambda qd, qdd, blocks=blocks: side_by_side(*blocks(qd, qdd)))
@@ -80,8 +79,8 @@ for slug, says, blocks in (
 
 @row.wrong
 def by_joint(qd, qdd):
-    """your columns are grouped by joint. Put all rotors first, then all viscous
-    friction, then all dry friction"""
+    """your columns are grouped by joint. Put the seven columns of the rotors first,
+    then the seven of viscous friction, then the seven of dry friction"""
     Y = side_by_side(qdd, qd, np.sign(qd)).reshape(7, 3, 7)
     return np.swapaxes(Y, 1, 2).reshape(7, 21)
 

@@ -74,28 +74,30 @@ def below(corner, T):
 
 
 for slug, says, other in (
-    ("bracket-forgotten", "your `A` lacks the term ad(V) S qd, which is needed because "
-                          "the preceding joints change the direction of a joint's axis",
+    ("bracket-forgotten", "your `A` omits the term ad(V) S qd, which is needed "
+                          "because the preceding joints move the axis of a joint",
                           {"bracket": 0.0}),
-    ("bracket-sign", "your `A` contains ad(S) V qd, which is the negative of ad(V) S "
-                     "qd",
+    ("bracket-sign", "your `A` contains ad(S) V qd instead of ad(V) S qd, which is "
+                     "its negative",
      {"bracket": -1.0}),
     ("pose-not-inverted", "your code transforms V and A with Ad(T), but the adjoint "
                           "from the world to the link is Ad(T^-1)", {"into": adjoint}),
-    ("offset-left-out", "your code rotates the twists V and A into the link frame, but "
-                        "it does not change their reference point to the link's "
-                        "origin. The adjoint lacks the block [p] R",
+    ("offset-left-out", "your code rotates the twists V and A into the link frame, "
+                        "but it does not move their reference point to the link's "
+                        "origin. Your Ad(T^-1) omits the lower left block -R^T [p]",
      {"into": lambda T: np.kron(np.eye(2), T[:3, :3].T)}),
-    ("in-world-axes", "your code does not transform V and A to the link, but the "
-                      "parameters of a link are expressed in its own frame, about its "
-                      "origin",
+    ("in-world-axes", "your code does not transform V and A into the link frame. The "
+                      "parameters of a link are expressed in its own frame, about "
+                      "its origin",
      {"into": lambda T: np.eye(6)}),
-    ("wrench-back-with-the-inverse", "your code transforms the wrench back with X^-1, "
-                                     "as a twist. A wrench transforms with X^T, "
-                                     "because the power is the same in both frames",
+    ("wrench-back-with-the-inverse", "your code transforms the wrench back with "
+                                     "X^-1, as if it were a twist. A wrench "
+                                     "transforms with X^T, because the power is the "
+                                     "same in both frames",
                                      {"back": np.linalg.inv}),
-    ("wrench-not-carried-back", "your code rotates the wrench to the world frame, but "
-                                "it does not take the moment about the world's origin",
+    ("wrench-not-carried-back", "your code rotates the wrench to the world frame, "
+                                "but it does not move the reference point of the "
+                                "moment to the world's origin",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),
     ("every-joint-feels-every-link", "each link in your matrix has entries in the rows "
                                      "of all joints, but a link causes no torque at "
@@ -108,14 +110,14 @@ for slug, says, other in (
                  "link causes no torque at that joint",
                  {"felt": lambda i: slice(0, i + 2)}),
     ("later-links-only", "in your matrix, link i has entries in the rows of its own "
-                         "joint and of all distal joints. They belong in the rows of "
-                         "its own and all proximal joints",
+                         "joint and of all distal joints. These entries belong in "
+                         "the rows of its own joint and of all proximal joints",
      {"felt": lambda i: slice(i, 7)}),
-    ("own-link-only", "each row of your matrix contains only the joint's own link, but "
-                      "a joint also carries all links distal to it",
+    ("own-link-only", "each row of your matrix has entries only for the joint's own "
+                      "link, but a joint also carries all links distal to it",
                       {"felt": lambda i: slice(i, i + 1)}),
-    ("last-link-missing", "your columns of the last link are 0, because the loop ends "
-                          "one link too early", {"links": 6}),
+    ("last-link-missing", "your columns for the last link are 0. Does your loop end "
+                          "one link too early?", {"links": 6}),
     ("pose-of-the-link-before", "each link in your code uses the pose of the link "
                                 "before it. T_links[0] is already the pose of link1",
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
@@ -132,15 +134,15 @@ for slug, says, other in (
     ("p-before-R", "the lower left block of your Ad(T^-1) is [p] R^T. Because p is "
                    "expressed in the world frame, the block should be -R^T [p]",
      {"into": lambda T: below(skew(T[:3, 3]) @ T[:3, :3].T, T)}),
-    ("acceleration-starts-anew", "your `A` contains only the acceleration of the base "
-                                 "and the terms of joint i. Add the terms of the "
-                                 "joints before it as well",
+    ("acceleration-starts-anew", "your `A` contains only the acceleration of the "
+                                 "base and the terms of joint i. Add the terms of "
+                                 "the preceding joints as well",
      {"passed_on": 0.0}),
-    ("gravity-forgotten", "the argument g has no effect in your code. The acceleration "
-                          "of the base is -g, and A should begin with it",
+    ("gravity-forgotten", "your code does not use the argument g. Begin A with the "
+                          "acceleration of the base, which is -g",
                           {"gravity": 0.0}),
-    ("acceleration-not-turned", "your code transforms V to the link, but it does not "
-                                "transform A",
+    ("acceleration-not-turned", "your code transforms V into the link frame, but not "
+                                "A. Transform both",
      {"both": False}),
     ("twist-too-late", "your code uses V before it adds S qd of joint i, so V is the "
                        "twist of the previous link", {"late": True}),
@@ -174,7 +176,7 @@ def grouped_by_number(J_space, T_links, qd, qdd, g):
 
 TYPED_IN = Change(
     "gravity-typed-in",
-    "your code contains gravity as the constant (0, 0, -9.81). Use the argument g",
+    "your code uses the constant (0, 0, -9.81) for gravity. Use the argument g",
     lambda g: DOWN,
     hidden="the arm of the lab is upright",
 )

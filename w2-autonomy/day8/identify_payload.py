@@ -55,19 +55,19 @@ def _(J_site, R_site, extra, g):
     last-hold-only: your code uses only the last pose, because each pass of the loop
       overwrites the rows of the previous pose. Stack the rows of all poses
     extra-by-joint: your code flattens the torques joint by joint, but it stacks the
-      rows of the regressor pose by pose
+      rows of the regressor pose by pose. Use the same order for both
     reshaped: your code reshapes J_site to (k, 7, 6), which keeps the order of its
       entries. To transpose each matrix, swap the last two axes
     wrenches-first: your code converts each pose's torques to a wrench and fits the
       wrenches. The torques are measured, so fit the torques
     cut-too-high: your code leaves out small singular values, but if the poses differ
-      little, these values determine a part of m c
+      only slightly, these values determine a part of m c. Keep them
     solutions-averaged: your code solves each pose alone and averages the solutions. One
       pose does not determine all four parameters, so stack the rows of all poses
-    weight-for-mass: your first result is the weight in newtons. The column of m should
+    weight-for-mass: your first result is the weight in newtons. The column for m should
       contain g itself, not its unit vector
-    centre-for-first-moment: your last three results are c. The task asks for m c, in
-      which the equations are linear
+    centre-for-first-moment: your last three results are c. Return m c, because the
+      equations are linear in m c
     """
     Y = rows(J_site, R_site, g)
     right = solved(Y, extra)
@@ -94,10 +94,10 @@ def _(J_site, R_site, extra, g):
 
 @row.wrongs
 def _(J_site, R_site, extra, g):
-    """g-not-turned-back: your code rotates g by R, but R^T expresses it in the hand
-      frame
-    moment-in-the-hand: your moment is expressed in the hand frame, but J_site takes it
-      in the world frame. Multiply it by R
+    """g-not-turned-back: your code multiplies g by R. Multiply it by R^T to express g
+      in the hand frame
+    moment-in-the-hand: your moment is expressed in the hand frame, but J_site requires
+      a moment in the world frame. Multiply your moment by R
     """
 
     def fitted(moments):

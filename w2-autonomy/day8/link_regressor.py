@@ -33,10 +33,10 @@ def _(V, Vd):
     unit-vector-not-reset: your code does not reset the unit vector between columns, so
       the entries that were set to 1 for earlier columns remain. Column k is therefore
       the sum of the wrenches of the first k parameters
-    gravity-added: your code adds gravity to Vd, but Vd already includes it as the
+    gravity-added: your code adds gravity to Vd, but Vd already includes gravity as the
       acceleration -g of the base
-    first-moments-empty: your columns of m c are 0. Their unit vectors have m = 0, so
-      phi[1:4] must be neither multiplied nor divided by m
+    first-moments-empty: your columns for m c are 0. Their unit vectors have m = 0, so
+      neither multiply nor divide phi[1:4] by m
     """
     right = link_regressor(V, Vd)
     X = ad(V)

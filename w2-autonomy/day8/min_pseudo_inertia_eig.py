@@ -47,20 +47,20 @@ def doubled(I):  # noqa: E741
 
 for slug, says, code in (
     ("only-the-inertia", "your result is the smallest eigenvalue of I. The "
-                         "pseudo-inertia contains (tr(I)/2) E - I instead of I, where "
-                         "E is the identity, and it also contains m c",
+                         "pseudo-inertia contains (tr(I)/2) E - I instead of I, "
+                         "where E is the identity, and it also contains h = m c",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi)[:3, :3])[0]),
     ("inertia-not-turned-round", "your upper left block is I. It should be the sum of "
                                  "m r r^T, which is (tr(I)/2) E - I with the identity "
                                  "E",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: I))[0]),  # noqa: E741
-    ("products-not-negated", "the entries beside the diagonal of your S have the wrong "
-                             "sign. S is (tr(I)/2) E - I with the identity E, so they "
-                             "are -Ixy, -Ixz and -Iyz",
+    ("products-not-negated", "the off-diagonal entries of your S have the wrong "
+                             "sign. The block S is (tr(I)/2) E - I with the identity "
+                             "E, so these entries are -Ixy, -Ixz and -Iyz",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, mirrored))[0]),
-    ("not-halved", "the diagonal of your S is twice as large as it should be. S is "
-                   "(tr(I)/2) E - I with the identity E, so its first entry is (Iyy + "
-                   "Izz - Ixx) / 2",
+    ("not-halved", "the diagonal of your S is twice as large as it should be. The "
+                   "block S is (tr(I)/2) E - I with the identity E, so its first "
+                   "entry is (Iyy + Izz - Ixx) / 2",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, doubled))[0]),
     ("centre-for-first-moment", "your code uses the centre of mass c instead of h = "
                                 "m c",
@@ -69,7 +69,8 @@ for slug, says, code in (
                     "eigenvalues. Return the smallest eigenvalue",
      lambda phi: np.linalg.det(pseudo(phi))),
     ("singular-value", "your result is the smallest singular value, which is never "
-                       "negative. The sign of the eigenvalue matters",
+                       "negative. Return the smallest eigenvalue, because its sign "
+                       "matters",
      lambda phi: np.linalg.svd(pseudo(phi), compute_uv=False)[-1]),
     ("nearest-to-zero", "your result is the eigenvalue with the smallest absolute "
                         "value. A negative eigenvalue is smaller than any positive one",
@@ -77,22 +78,24 @@ for slug, says, code in (
     ("clipped", "your code sets a positive result to 0. Return the eigenvalue itself",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
     ("never-above-zero", "your result is minus the absolute value of the eigenvalue. "
-                         "The eigenvalue is not negative for a body that can exist",
+                         "For a body that can exist, the smallest eigenvalue is not "
+                         "negative",
      lambda phi: -abs(np.linalg.eigvalsh(pseudo(phi))[0])),
-    ("first-moment-once", "h has no effect in your code. Either h is missing, or you "
-                          "set only the upper block, but eigvalsh reads only the lower "
-                          "triangle",
+    ("first-moment-once", "your result does not depend on h. Either your matrix has "
+                          "no h, or only its upper triangle has h, but "
+                          "numpy.linalg.eigvalsh reads the lower triangle",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
-    ("about-the-centre", "your code transforms I to the centre of mass first. Both I "
-                         "and the sum of m r r^T are about the origin",
+    ("about-the-centre", "your code first moves I to the centre of mass. The "
+                         "pseudo-inertia is about the origin, as I is, so use I "
+                         "unchanged",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
     ("of-the-inertia", "your result is the smallest eigenvalue of the 6x6 spatial "
                        "inertia. The 4x4 pseudo-inertia contains (tr(I)/2) E - I, with "
                        "the identity E, and h",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi))[0]),
     ("unsorted", "your result is the first eigenvalue of numpy.linalg.eigvals, which "
-                 "does not sort them. Take the minimum",
+                 "does not sort the eigenvalues. Return the smallest one",
      lambda phi: np.linalg.eigvals(pseudo(phi))[0].real),
 ):  # fmt: skip
     row.wrong(slug, says)(code)

@@ -28,16 +28,17 @@ def _(rng):
 
 @row.wrongs
 def _(Y, tau, Y_new, rtol):
-    """columns-for-rank: your code divides the variance of the noise by n - p. Divide by
-      n - rank, because the fit uses only rank combinations of the p columns
-    one-more-taken-off: your code divides the variance of the noise by n - rank - 1. No
-      mean is subtracted, so divide by n - rank
-    mean-of-sizes: your code computes the noise as the mean of the absolute residuals.
-      Use the root of the mean square
+    """columns-for-rank: your code divides the sum of the squared residuals by n - p.
+      Divide it by n - rank, because the fit has only rank free parameters
+    one-more-taken-off: your code divides the sum of the squared residuals by n - rank -
+      1. No mean is subtracted, so divide the sum by n - rank
+    mean-of-sizes: your code computes the noise as the mean absolute residual. Use the
+      square root of the sum of the squared residuals over n - rank
     noise-added: your code adds the noise of a new measurement to sigma, but sigma
       should include only the uncertainty of the fitted parameters
-    mean-taken-off: your code subtracts the mean of the residual first, as in a standard
-      deviation about the mean. The mean is part of the noise, so keep it
+    mean-taken-off: your code first subtracts the mean of the residuals, as in a
+      standard deviation about the mean. The mean is part of the noise, so do not
+      subtract it
     rank-taken-off-last: your code subtracts the rank after the division by n. Put n -
       rank in brackets
     noise-for-sigma: your sigma is the standard deviation of the noise in every row. A
@@ -45,10 +46,11 @@ def _(Y, tau, Y_new, rtol):
     sigma-by-s-squared: your code divides sigma by the singular values twice. The
       covariance V S^-2 V^T contains S^-2, but sigma is the square root of y V S^-2 V^T
       y^T
-    sigma-with-V: your code uses V^T instead of V in sigma. The function
-      numpy.linalg.svd returns V^T
-    sigma-cut-not-squared: in sigma, your code compares the eigenvalues of Y^T Y with
-      rtol times the largest. They are squares of the singular values, so use rtol^2
+    sigma-with-V: your sigma uses V^T instead of V. The third result of numpy.linalg.svd
+      is V^T
+    sigma-cut-not-squared: for sigma, your code compares the eigenvalues of Y^T Y with
+      rtol times the largest one. They are the squares of the singular values, so use
+      rtol^2
     sizes-added: your sigma adds the absolute values of the terms. The variances of
       independent errors add, so sigma should be the square root of the sum of the
       squared terms

@@ -40,9 +40,10 @@ def of_what_counts(case: Case) -> Finding | None:
         other += int(k != n)
     calls = f"of {len(ranks)} calls"
     if dust and not more and not fewer and not other:
-        says = f"A rounding error is counted as a singular value in {dust} {calls}. If "
-        says += "you compute the eigenvalues of Y^T Y, their rounding errors are 1e-8 "
-        says += "of the largest after the root; those of numpy.linalg.svd are 1e-16."
+        says = f"Your code counts a rounding error as a singular value in {dust} "
+        says += f"{calls}. If you compute the eigenvalues of Y^T Y, their rounding "
+        says += "errors are 1e-8 of the largest one after the root. With "
+        says += "numpy.linalg.svd they are 1e-16."
         return Finding("rounding-counts", says)
     if dust:
         return None
@@ -59,7 +60,7 @@ def miscounted(more: int, fewer: int, calls: str) -> str:
     """Return in how many calls the wrong singular values are counted."""
     parts = [f"too many singular values are counted in {more} {calls}"] * (more > 0)
     parts += [f"too few singular values are counted in {fewer} {calls}"] * (fewer > 0)
-    says = f"{', and '.join(parts)}. Count those above rtol times the largest."
+    says = f"{', and '.join(parts)}. Count those above rtol times the largest one."
     return says[0].upper() + says[1:]
 
 
@@ -84,19 +85,20 @@ for slug, says, told in (
                       "rank depends on the unit",
      lambda s, rtol: (n := np.sum(s > rtol), s[0] / s[n - 1])),
     ("condition-of-all", "your condition number uses the smallest of all singular "
-                         "values. Use the smallest one that is counted in the rank",
+                         "values. Use the smallest one that the rank counts",
      lambda s, rtol: (np.sum(s > rtol * s[0]), s[0] / max(s[-1], 1e-300))),
     ("nothing-cut", "your code counts all singular values, so rtol has no effect",
      lambda s, rtol: (len(s), s[0] / max(s[-1], 1e-300))),
     ("cut-by-the-sum", "your code compares the singular values with rtol times their "
-                       "sum. Compare them with rtol times the largest",
+                       "sum. Compare them with rtol times the largest one",
      lambda s, rtol: (n := np.sum(s > rtol * s.sum()), s[0] / s[n - 1])),
     ("cut-by-the-norm", "your code compares the singular values with rtol times the "
-                        "Frobenius norm of Y. Compare them with rtol times the largest",
+                        "Frobenius norm of Y. Compare them with rtol times the "
+                        "largest one",
      lambda s, rtol: (n := np.sum(s > rtol * np.linalg.norm(s)), s[0] / s[n - 1])),
     ("cut-by-rows", "your function multiplies rtol by the number of rows, as NumPy "
-     "does with its default tolerance. Compare the singular values with rtol times the "
-     "largest",
+                    "does with its default tolerance. Compare the singular values "
+                    "with rtol times the largest one",
      lambda s, rtol, m: (n := np.sum(s > rtol * m * s[0]), s[0] / s[n - 1])),
     ("rtol-not-used", "your tolerance is a constant. Use the argument rtol",
      lambda s, rtol: (n := np.sum(s > 1e-9 * s[0]), s[0] / s[n - 1])),
@@ -105,18 +107,18 @@ for slug, says, told in (
                                   "roots",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), (s[0] / s[n - 1]) ** 2)),
     ("cut-not-squared", "your code compares the eigenvalues of Y^T Y with rtol times "
-                        "the largest. They are squares of the singular values, so "
-                        "compare them with rtol^2 times the largest",
+                        "the largest one. They are the squares of the singular "
+                        "values, so compare them with rtol^2 times the largest one",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), s[0] / s[n - 1])),
     ("hidden-for-shown", "your rank is the number of singular values below the limit. "
                          "It should be the number above the limit",
      lambda s, rtol: (len(s) - (n := np.sum(s > rtol * s[0])), s[0] / s[n - 1])),
-    ("condition-squared", "your code computes the condition number for Y^T Y, so the "
-                          "result is the square of the condition number of Y",
+    ("condition-squared", "your code computes the condition number of Y^T Y, which "
+                          "is the square of the condition number of Y",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
-    ("condition-rooted", "your condition number is the square root of the ratio. Only "
-                         "the eigenvalues of Y^T Y need a square root, and the "
-                         "singular values do not",
+    ("condition-rooted", "your condition number is the square root of the ratio of "
+                         "the singular values. Take a square root only if you use "
+                         "the eigenvalues of Y^T Y",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), np.sqrt(s[0] / s[n - 1]))),
     ("condition-inverted", "your code inverts the condition number. Divide the largest "
                            "singular value by the smallest one, so that the result is "
@@ -134,9 +136,9 @@ for slug, says, told in (
 
 @row.wrongs
 def _(Y, rtol):
-    """columns-scaled: your code divides the columns of Y by their norms first, which
-      changes the singular values
-    columns-centred: your code subtracts the mean of each column of Y first, but the
+    """columns-scaled: your code first divides the columns of Y by their norms, which
+      changes the singular values. Use Y itself
+    columns-centred: your code first subtracts the mean of each column of Y, but the
       model tau = Y phi has no constant term
     """
     return {

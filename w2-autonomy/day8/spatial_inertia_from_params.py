@@ -25,17 +25,16 @@ def _(rng):
 
 @row.wrongs
 def _(phi):
-    """products-negative: the products Ixy, Ixz and Iyz have the wrong sign in your
-      matrix. The argument phi contains the entries of the matrix I, so copy them
-      unchanged
+    """products-negative: your products Ixy, Ixz and Iyz have the wrong sign. The
+      argument phi contains the entries of I themselves, so copy them unchanged
     row-by-row: your code reads the six entries of I in the order Ixx, Ixy, Iyy, Ixz,
       Iyz, Izz. In phi the three diagonal entries come first
     triangle-by-rows: your code reads the six entries of I in the order Ixx, Ixy, Ixz,
       Iyy, Iyz, Izz. In phi the three diagonal entries come first
-    first-moment-times-m: your code multiplies phi[1:4] by m, but it is already the
-      first moment m c
-    corners-swapped: your code swaps the off-diagonal blocks. [h] belongs in the upper
-      right and [h]^T in the lower left
+    first-moment-times-m: your code multiplies phi[1:4] by m, but phi[1:4] is already
+      the first moment m c
+    corners-swapped: your code swaps the off-diagonal blocks. The block [h] belongs in
+      the upper right and [h]^T in the lower left
     """
     m, *h = phi[:4]
     changed = {

@@ -50,9 +50,9 @@ def columns_left_out(case: Case) -> Finding | None:
         count += hides
     if not count:
         return None
-    says = "Individual parameters are 0 whenever Y has small singular values. What the "
-    says += "data do not determine is a combination of parameters, and the solution of "
-    says += "minimum norm has a part of each of them."
+    says = "In your result, individual parameters are 0 whenever Y has small singular "
+    says += "values. The data leave combinations of parameters undetermined, and the "
+    says += "solution of minimum norm distributes each of them over several parameters."
     return Finding("columns-left-out", says)
 
 
@@ -68,7 +68,7 @@ def not_the_smallest(case: Case) -> Finding | None:
         longest = max(longest, ratio)
     says = "Your parameters have the same residual as the correct ones, but not the "
     says += f"minimum norm: their norm is up to {longest:.3g} times as large. A "
-    says += "combination that the data do not determine should be 0."
+    says += "combination that the data do not determine should be 0 in your result."
     return Finding("not-the-smallest", says)
 
 
@@ -115,29 +115,29 @@ def parts(Y, rtol):
 
 @row.wrongs
 def _(Y, tau, rtol):
-    """nothing-cut: your code uses all singular values, so noise decides those
+    """nothing-cut: your code uses all singular values, so noise determines the
       combinations of parameters that the data do not determine
     rtol-absolute: your code compares the singular values with rtol itself. Compare them
-      with rtol times the largest
+      with rtol times the largest one
     cut-by-the-sum: your code compares the singular values with rtol times their sum.
-      Compare them with rtol times the largest
+      Compare them with rtol times the largest one
     cut-by-the-norm: your code compares the singular values with rtol times the
-      Frobenius norm of Y. Compare them with rtol times the largest
+      Frobenius norm of Y. Compare them with rtol times the largest one
     cut-by-rows: your function multiplies rtol by the number of rows, as NumPy does with
-      its default tolerance. Compare the singular values with rtol times the largest
-    V-for-its-transpose: your code uses V^T instead of V. The function numpy.linalg.svd
-      returns V^T
+      its default tolerance. Compare the singular values with rtol times the largest one
+    V-for-its-transpose: your code uses V^T instead of V. The third result of
+      numpy.linalg.svd is V^T
     cut-not-squared: your code compares the eigenvalues of Y^T Y with rtol times the
-      largest. They are squares of the singular values, so compare them with rtol^2
-      times the largest
+      largest one. They are the squares of the singular values, so compare them with
+      rtol^2 times the largest one
     ridge: your code adds a constant to the diagonal of Y^T Y, which reduces every
       parameter, even those that the data determine
-    mean-taken-off: your code subtracts the mean of tau first, but the model tau = Y phi
+    mean-taken-off: your code first subtracts the mean of tau, but the model tau = Y phi
       has no constant term
     times-s: your fit multiplies by the singular values. The pseudo-inverse of Y divides
       by them
     first-columns: your code fits only the first r columns of Y, where r is the rank.
-      These columns need not be independent
+      These columns need not be linearly independent
     """
     U, s, Vt = parts(Y, rtol)
     _, every, turned = np.linalg.svd(Y, full_matrices=False)

@@ -38,15 +38,15 @@ for slug, says, other in (
                 "yet. Use the previous sample",
      {"change": lambda q: np.diff(q, append=0.0)}),
     ("central", "your function returns the central difference, which uses the next "
-                "sample, but the next sample is not known yet",
+                "sample. This sample is not known yet, so use the previous sample",
      {"change": np.gradient}),
     ("central", "your function returns the central difference, which uses the next "
-                "sample, but the next sample is not known yet",
+                "sample. This sample is not known yet, so use the previous sample",
      {"change": lambda q: np.append(0.0, np.gradient(q)[1:])}),
     ("from-zero", "your first velocity is q_0 / dt, as if a sample of 0 preceded it. "
                   "No sample precedes the first one, so the first velocity should be 0",
      {"change": lambda q: np.diff(q, prepend=0.0)}),
-    ("round-the-corner", "your first velocity uses the last sample, as np.roll does. "
+    ("round-the-corner", "your first velocity uses the last sample, as with np.roll. "
                          "No sample precedes the first one, so the first velocity "
                          "should be 0",
      {"change": lambda q: q - np.roll(q, 1)}),
@@ -56,9 +56,9 @@ for slug, says, other in (
     ("two-samples", "your code divides the change over two samples by one dt. Use the "
                     "change since the previous sample",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2])}),
-    ("mean-of-two", "your code divides the change over two samples by 2 dt, which is "
-                    "the velocity one sample ago. Use the change since the previous "
-                    "sample",
+    ("mean-of-two", "your code divides the change over two samples by 2 dt, which "
+                    "approximates the velocity one sample earlier. Use the change "
+                    "since the previous sample",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2]) / 2}),
     ("since-the-start", "your result is the mean velocity since the first sample. Use "
                         "the change since the previous sample",
@@ -75,8 +75,8 @@ for slug, says, other in (
     ("second-left-out", "your second velocity is 0. Does your loop begin one sample "
                         "too late?",
      {"change": lambda q: np.append([0.0, 0.0], np.diff(q)[1:])}),
-    ("twice", "your code takes the difference twice, which gives an acceleration times "
-              "dt", {"change": lambda q: backward(backward(q))}),
+    ("twice", "your code takes the difference twice, which gives an acceleration "
+              "times dt. Take it once", {"change": lambda q: backward(backward(q))}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(velocity, **other))
 

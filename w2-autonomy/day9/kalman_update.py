@@ -67,8 +67,9 @@ for slug, says, other in (
      {"of": lambda z, Hx: Hx - z}),
     ("R-rooted", "your code uses the square root of R, but R is already a covariance",
      {"of_R": lambda R: np.sqrt(np.abs(R))}),
-    ("divided-by-R", "your K is P H^T R^-1, which holds for the updated P only. Use "
-                     "the covariance S of the innovation",
+    ("divided-by-R", "your K is P H^T R^-1, which is correct only with the updated "
+                     "P. With the predicted P, use the innovation covariance S "
+                     "instead of R",
      {"K": lambda P, H, S, R: P @ H.T @ np.linalg.inv(R)}),
     ("P-from-the-right", "your new covariance is P (I - K H), but the factor belongs "
                          "on the left, (I - K H) P",
@@ -83,9 +84,9 @@ for slug, says, other in (
     ("P-K-R-K-besides", "your code adds K R K^T to P - K S K^T. This term belongs to "
                         "the Joseph form, (I - K H) P (I - K H)^T + K R K^T",
      {"new_P": lambda P, K, S, H, R: P - K @ S @ K.T + K @ R @ K.T}),
-    ("x-only-where-read", "your code corrects only the measured entries of x. P "
-                          "correlates the other entries with them, so K corrects all "
-                          "entries",
+    ("x-only-where-read", "your code corrects only the measured entries of x. The "
+                          "other entries are correlated with them through P, so K "
+                          "should correct all entries",
      {"new_x": lambda x, K, y, z, H: np.where((H != 0.0).any(axis=0), x + K @ y, x)}),
     ("x-by-the-reading", "your code multiplies K by the reading z. Multiply it by the "
                          "innovation z - H x",
@@ -99,16 +100,17 @@ for slug, says, other in (
     ("nis-after", "your NIS uses the residual z - H x of the updated x. Use the "
                   "innovation, which is computed before the update",
      {"nis": lambda y, S, known: weighed(known[3], S)}),
-    ("nis-with-new-P", "your NIS uses S of the updated P. Use S of the predicted P",
+    ("nis-with-new-P", "your NIS uses the S that belongs to the updated P. Use the S "
+                       "of the predicted P",
      {"nis": lambda y, S, known: weighed(y, after_it(*known))}),
     ("nis-all-after", "your NIS uses the updated x and P. Use the innovation and S, "
                       "which are computed before the update",
      {"nis": lambda y, S, known: weighed(known[3], after_it(*known))}),
     ("nis-diagonal", "your NIS uses only the diagonal of S, but the entries of the "
-                     "innovation may be correlated",
+                     "innovation may be correlated. Use the whole matrix S",
      {"nis": lambda y, S, known: y @ (y / np.diag(S))}),
-    ("nis-per-number", "your code divides the NIS by the number m of entries, but the "
-                       "mean of the NIS is m, not 1",
+    ("nis-per-number", "your code divides the NIS by m, the number of entries of z. "
+                       "The NIS has the mean m, so do not divide it",
      {"nis": lambda y, S, known: weighed(y, S) / len(y)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(updated, **other))

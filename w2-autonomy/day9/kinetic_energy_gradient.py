@@ -39,50 +39,53 @@ def gradient(
 
 
 for slug, says, other in (
-    ("slope-sign", "your code reverses every sign. Relative to the rotated links, V_i "
-                   "rotates in the opposite direction, so its derivative is -ad(S_i) "
-                   "V_i",
+    ("slope-sign", "your result has the opposite sign. Relative to the rotated "
+                   "links, V_i rotates in the opposite direction, so its derivative "
+                   "is -ad(S_i) V_i",
      {"factor": 1.0}),
     ("halved", "your code halves the result. The twist appears twice in the energy V . "
                "G V / 2, so the factor 1/2 cancels in the derivative",
      {"factor": -0.5}),
-    ("own-link-only", "your code uses only the momentum of link i. Joint i also "
-                      "rotates all distal links, so sum their momenta",
+    ("own-link-only", "your code uses only the contribution of link i. Joint i also "
+                      "rotates all distal links, so sum the contributions of links i "
+                      "to 7",
      {"felt": lambda i: slice(i, i + 1)}),
     ("later-links-only",
-     "your code omits link i itself, but the sum begins with link i",
+     "your code omits the contribution of link i itself, but the sum should begin "
+     "with link i",
      {"felt": lambda i: slice(i + 1, None)}),
-    ("last-link-left-out", "your code omits the momentum of link 7. Does your loop end "
-                           "one link too early?", {"felt": lambda i: slice(i, -1)}),
-    ("last-link-only", "your code uses only the momentum of link 7. Does your loop "
-                       "overwrite entry i for each k instead of adding to it?",
+    ("last-link-left-out", "your code omits the contribution of link 7. Does your "
+                           "loop end one link too early?",
+     {"felt": lambda i: slice(i, -1)}),
+    ("last-link-only", "your code uses only the contribution of link 7. Does your "
+                       "loop overwrite entry i for each k instead of adding to it?",
      {"felt": lambda i: slice(-1, None)}),
-    ("earlier-links", "your code sums the momenta of links 1 to i, but joint i rotates "
-                      "the links i to 7", {"felt": lambda i: slice(0, i + 1)}),
-    ("all-links", "your code sums the momenta of all links, but joint i does not move "
-                  "the links before it", {"felt": lambda i: slice(0, None)}),
+    ("earlier-links", "your code sums the contributions of links 1 to i, but joint i "
+                      "rotates links i to 7", {"felt": lambda i: slice(0, i + 1)}),
+    ("all-links", "your code sums the contributions of all links, but joint i does "
+                  "not move the links before it", {"felt": lambda i: slice(0, None)}),
     ("omega-alone", "your code rotates only the angular part of V_i, but ad(S_i) acts "
                     "on the linear part as well",
      {"turned": lambda S, V: np.append(np.cross(S[:3], V[:3]), np.zeros(3))}),
-    ("own-twist-only", "your V_i contains the velocity of joint i only. Sum over the "
+    ("own-twist-only", "your V_i contains only the velocity of joint i. Sum over "
                        "joints 1 to i",
      {"twists": lambda S, qd: S * qd[:, None]}),
-    ("outer-twists", "your V_i is the sum over the joints i to 7, but link i is moved "
-                     "by the joints 1 to i",
+    ("outer-twists", "your V_i is the sum over joints i to 7, but joints 1 to i move "
+                     "link i",
      {"twists": lambda S, qd: np.cumsum((S * qd[:, None])[::-1], axis=0)[::-1]}),
-    ("twists-one-late", "your V_i omits the velocity of joint i itself. Does your code "
-                        "add it after it uses V_i?",
+    ("twists-one-late", "your V_i omits the velocity of joint i itself. Does your "
+                        "code use V_i before it adds this velocity?",
      {"twists": lambda S, qd: np.cumsum(S * qd[:, None], axis=0) - S * qd[:, None]}),
-    ("one-late-for-all", "in your code, all links from i on have the twist V_(i-1), "
+    ("one-late-for-all", "your code uses the twist V_(i-1) for all links from i on, "
                          "but the momentum of link k is G_k V_k",
      {"carries": lambda V, i: V * 0 + (V[i - 1] if i else 0)}),
     ("twist-of-the-tip", "your code rotates the twist of link 7, but joint i rotates "
-                         "the twist V_i that arrives at link i",
+                         "the twist V_i of link i",
                          {"at": lambda V, i: V[-1]}),
-    ("one-twist-for-all", "in your code, all links from i on have the twist V_i, but "
+    ("one-twist-for-all", "your code uses the twist V_i for all links from i on, but "
                           "the momentum of link k is G_k V_k",
                           {"carries": lambda V, i: V * 0 + V[i]}),
-    ("tip-twist-for-all", "in your code, all links have the twist of link 7, but the "
+    ("tip-twist-for-all", "your code uses the twist of link 7 for all links, but the "
                           "momentum of link k is G_k V_k",
                           {"carries": lambda V, i: V * 0 + V[-1]}),
 ):  # fmt: skip
@@ -94,8 +97,8 @@ def _(J_space, G, qd):
     """C-qd: your result is the Coriolis torque C qd, but the gradient is C^T qd
     minus-C-qd: your result is the negative Coriolis torque -C qd, but the gradient is
       C^T qd
-    each-its-own-twist: your code rotates the twist V_k of each link, but all links from
-      i on receive the same change, -ad(S_i) V_i
+    each-its-own-twist: your code rotates the twist V_k of each link, but the twists of
+      all links from i on change by the same amount, -ad(S_i) V_i
     """
     C = dynamics.coriolis_matrix(J_space, G, qd)
     S = J_space.T

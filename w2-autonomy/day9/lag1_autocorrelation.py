@@ -36,13 +36,16 @@ def correlation(
 
 AS_IT_IS = {"above": lambda y: y}
 for slug, says, other in (
-    ("mean-not-taken-off", "your code does not subtract the mean, but an offset alone "
-                           "makes neighbours correlated",
+    ("mean-not-taken-off", "your code does not subtract the mean, but a constant "
+                           "offset alone makes neighbours correlated",
      {**AS_IT_IS, "below": lambda y: y}),
-    ("mean-left-in-the-products", "your code subtracts the mean in the squares, but "
-                                  "not in the products", AS_IT_IS),
-    ("mean-left-in-the-squares", "your code subtracts the mean in the products, but "
-                                 "not in the squares", {"below": lambda y: y}),
+    ("mean-left-in-the-products", "your code subtracts the mean before it computes "
+                                  "the squares, but not before it computes the "
+                                  "products. Subtract it for both", AS_IT_IS),
+    ("mean-left-in-the-squares", "your code subtracts the mean before it computes "
+                                 "the products, but not before it computes the "
+                                 "squares. Subtract it for both",
+     {"below": lambda y: y}),
     ("squares-of-the-first", "your denominator omits the square of the last entry. Use "
                              "all n squares",
      {"squares": lambda d: d[:-1] @ d[:-1]}),
@@ -59,18 +62,22 @@ for slug, says, other in (
                          "n squares. Divide the sum of the products by the sum of the "
                          "squares",
      {"share": lambda n: n / (n - 1)}),
-    ("variance-for-sum", "your code divides the sum of the products by the mean of the "
-                         "squares. Divide the two sums", {"share": lambda n: n}),
+    ("variance-for-sum", "your code divides the sum of the products by the mean of "
+                         "the squares. Divide it by the sum of the squares",
+     {"share": lambda n: n}),
     ("mean-by-sum", "your code divides the mean of the products by the sum of the "
-                    "squares. Divide the two sums", {"share": lambda n: 1 / (n - 1)}),
+                    "squares. Use the sum of the products instead",
+     {"share": lambda n: 1 / (n - 1)}),
     ("mean-by-sum", "your code divides the mean of the products by the sum of the "
-                    "squares. Divide the two sums", {"share": lambda n: 1 / n}),
+                    "squares. Use the sum of the products instead",
+     {"share": lambda n: 1 / n}),
     ("lag-two", "your code multiplies each entry by the second entry after it. Use its "
                 "direct neighbour", {"pairs": lambda d: d[2:] @ d[:-2]}),
     ("lag-zero", "your code multiplies each entry by itself, so the result is always "
                  "1. Multiply it by its neighbour", {"pairs": lambda d: d @ d}),
     ("round-the-corner", "your code multiplies the last entry by the first, as with "
-                         "np.roll, but the first and the last entry are not neighbours",
+                         "np.roll, but the last and the first entry are not "
+                         "neighbours",
      {"pairs": lambda d: d @ np.roll(d, 1)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(correlation, **other))

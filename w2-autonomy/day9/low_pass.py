@@ -47,25 +47,25 @@ def filtered(
 
 for slug, says, other in (
     ("rc-share", "your alpha is dt / (dt + RC), which approximates 1 - exp(-dt / RC) "
-                 "for low cutoffs only", {"alpha": lambda x: x / (1 + x)}),
+                 "only for low cutoff frequencies", {"alpha": lambda x: x / (1 + x)}),
     ("share-turned-round", "your code swaps alpha and 1 - alpha. The new sample should "
                            "get the weight alpha",
      {"step": lambda y, now, before, a: now + a * (y - now)}),
     ("euler-share", "your alpha is 2 pi cutoff dt, an Euler step, which overshoots "
-                    "above 1. Use the exact solution over dt",
+                    "if alpha is above 1. Use the exact solution over dt",
      {"alpha": lambda x: x}),
-    ("no-2-pi", "your code omits the factor 2 pi. The argument cutoff is in Hz, so the "
-                "time constant is 1 / (2 pi cutoff)",
+    ("no-2-pi", "your code omits the factor 2 pi. The argument `cutoff` is in Hz, so "
+                "the time constant is 1 / (2 pi cutoff)",
      {"of": lambda dt, f: f * dt}),
-    ("cutoff-for-time", "your code uses cutoff as the time constant, but cutoff is a "
-                        "frequency in Hz", {"of": lambda dt, f: dt / f}),
+    ("cutoff-for-time", "your code uses `cutoff` as the time constant, but `cutoff` "
+                        "is a frequency in Hz", {"of": lambda dt, f: dt / f}),
     ("two-for-e", "your alpha uses powers of 2, as for a half-life, but the decay is "
                   "exp(-2 pi cutoff dt)",
      {"alpha": lambda x: 1 - 2.0**-x}),
-    ("from-zero", "your y starts at 0, so the output first rises from there. The "
-                  "output y should start at x[0]", {"first": lambda x, a: 0.0}),
-    ("first-filtered", "your y starts at alpha x[0], as if the output had been 0 "
-                       "before. The output y should start at x[0]",
+    ("from-zero", "your y starts at 0, so the output first has to rise from 0. It "
+                  "should start at x[0]", {"first": lambda x, a: 0.0}),
+    ("first-filtered", "your y starts at alpha x[0], as if the previous output had "
+                       "been 0. It should start at x[0]",
                        {"first": lambda x, a: a * x[0]}),
     ("by-the-sample-before", "your code uses the previous sample instead of the "
                              "previous output, so the filter has no memory",
@@ -73,8 +73,8 @@ for slug, says, other in (
     ("change-added", "your code adds alpha times the change of x. Add alpha times the "
                      "difference between x and the previous output",
      {"step": lambda y, now, before, a: y + a * (now - before)}),
-    ("whole-numbers-kept", "your code stores y in an integer array, which discards the "
-                           "fraction of each output",
+    ("whole-numbers-kept", "your code stores y in an integer array, which discards "
+                           "the fraction of each output. Create the array with floats",
      {"step": lambda y, now, before, a: np.trunc(np.trunc(y) + a * (now - np.trunc(y))),
       "first": lambda x, a: np.trunc(x[0])}),
 ):  # fmt: skip

@@ -37,11 +37,11 @@ def _(rng):
 
 @row.wrongs
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
-    """gravity-sign: your `gravity` has the wrong sign. It is the torque that holds the
-      arm, and the weight acts in the opposite direction
+    """gravity-sign: your code uses `gravity` with the wrong sign. The argument is the
+      torque that holds the arm, and the weight acts in the opposite direction
     residual-without-dt: your code adds the old residual to the integral without dt, but
       a torque times dt is a momentum
-    integral-of-before: your residual uses the old integral. Advance the integral first
+    integral-of-before: your residual uses the old integral. Update the integral first
     integral-not-handed-on: your code returns the old integral. Return the new one
     fed-back-times-gain: your code multiplies the old residual by the gain in the
       integral, but the residual is already a torque
@@ -51,8 +51,8 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
       residual alone => both
     residual-taken-off: your code subtracts the old residual from the new one. Return
       the new residual alone
-    new-residual-fed-back: your integral uses a residual of the new momentum. Use the
-      residual of the previous sample
+    new-residual-fed-back: your integral uses a residual that is computed with the new
+      momentum. Use the residual of the previous sample
     """
     known = tau + energy_grad - gravity - damping * qd
     now = integral + (known + residual) * dt

@@ -27,24 +27,25 @@ def interval(
 
 for slug, says, other in (
     ("multiplied-for-divided", "your code multiplies c by n m, because 2 / 9 * n * m "
-                               "divides by 9 only. Write 2 / (9 * n * m)",
+                               "divides only by 9. Write 2 / (9 * n * m)",
      {"c": lambda n, m: 2 / 9 * n * m}),
     ("added-for-multiplied", "your c contains n + m, but the sum of n NIS values has n "
                              "m degrees of freedom",
      {"c": lambda n, m: 2 / (9 * (n + m))}),
     ("whole-division", "your c is 0, because // discards the fraction of 2 / (9 n m)",
      {"c": lambda n, m: 2 // (9 * n * m)}),
-    ("shift-forgotten", "your function uses the mean 1 for the cube root, but the mean "
-                        "is 1 - c", {"middle": lambda c: 1.0}),
-    ("shift-sign", "your function uses the mean 1 + c for the cube root, but the mean "
-                   "is 1 - c", {"middle": lambda c: 1 + c}),
+    ("shift-forgotten", "your function uses 1 as the mean of the cube root, but the "
+                        "mean is 1 - c", {"middle": lambda c: 1.0}),
+    ("shift-sign", "your function uses 1 + c as the mean of the cube root, but the "
+                   "mean is 1 - c", {"middle": lambda c: 1 + c}),
     ("ninety", "your function uses 1.645 standard deviations, which contain 90 % of a "
      "Gaussian. Use 1.96 for 95 %", {"z": 1.645}),
     ("two-sigma", "your function uses 2 standard deviations, which contain 95.4 % of a "
      "Gaussian. Use 1.96 for 95 %", {"z": 2.0}),
     ("ninety-nine", "your function uses 2.576 standard deviations, which contain 99 % "
      "of a Gaussian. Use 1.96 for 95 %", {"z": 2.576}),
-    ("more-digits", "your function uses 1.959964, but the task asks for 1.96",
+    ("more-digits", "your function uses 1.959964 standard deviations. Use 1.96, as "
+                    "in the task",
      {"z": 1.959964}),
     ("m-cubed", "your code also cubes m. Multiply by m after the cube",
      {"front": lambda n, m: m**3}),

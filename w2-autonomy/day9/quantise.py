@@ -43,8 +43,9 @@ for slug, says, other in (
     ("middle-of-a-count", "your code rounds the counts down and adds half a count, but "
                           "an encoder reports the nearest whole count",
      {"whole": lambda k: np.floor(k) + 0.5}),
-    ("one-count-fewer", "your code divides a revolution by counts - 1, so it misses "
-                        "the step from the last count to the first one",
+    ("one-count-fewer", "your code divides a revolution by counts - 1, which omits "
+                        "the step from the last count back to the first. Divide it "
+                        "by `counts`",
      {"step": lambda n: 2 * np.pi / (n - 1)}),
     ("no-pi", "your angle per count is 1 / counts. It should be 2 pi / counts, because "
      "q is in radians", {"step": lambda n: 1 / n}),
@@ -55,8 +56,8 @@ for slug, says, other in (
      {"step": lambda n: n / (2 * np.pi)}),
     ("in-counts", "your output is in counts. It should be an angle in radians",
      {"told": lambda k, step: k}),
-    ("two-pi-alone", "your code divides the number of counts by 2 pi. Multiply it by "
-                     "the angle of one count",
+    ("two-pi-alone", "your code divides the number of counts by 2 pi. Multiply this "
+                     "number by the angle of one count",
      {"told": lambda k, step: k / (2 * np.pi)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(counted, **other))
