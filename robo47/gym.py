@@ -5,7 +5,7 @@
     env = gymnasium.make("robo47/Push-v0")
 
 An extra: `python3 scripts/setup_env.py gym` installs Gymnasium. Observations, actions
-and starts are those of `robo47.push`. The reward of a step is the decrease of the
+and starts are as in `robo47.push`. The reward of a step is the decrease of the
 puck's distance from home, in metres, so that the return of an episode is the distance
 gained. `info["is_success"]` says whether the puck is at home, and an episode has 60
 steps.

@@ -28,10 +28,10 @@ numbers = Numbers(
 @numbers.add(
     "path of a blind push to 60 degrees", "{:.0f} mm",
     beside=between(0.6, 0.7, "R ln(tan 30° / tan(phi / 2)): R ln 2 is 45 mm"),
-    mass=between(1.02, 1.04, "the puck runs on by speed · mass / damping"),
-    damping=between(0.98, 0.99, "the puck runs on by speed · mass / damping"),
-    speed=between(1.02, 1.04, "the puck runs on by speed · mass / damping"),
-    step=between(0.99, 1.01, "shorter than the puck's 20 ms"),
+    mass=between(1.02, 1.04, "the delay adds speed · mass / damping to R"),
+    damping=between(0.98, 0.99, "the delay adds speed · mass / damping to R"),
+    speed=between(1.02, 1.04, "the delay adds speed · mass / damping to R"),
+    step=between(0.99, 1.01, "the push of 1.3 s still has 67 steps"),
 )  # fmt: skip
 def blind(
     beside=10.0, mass=DAY.MASS, damping=DAY.DAMPING, speed=DAY.PUSH, step=DAY.STEP

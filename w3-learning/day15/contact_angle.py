@@ -34,7 +34,7 @@ def _(phi, distance, R):
     """small-angle: your function uses phi exp(distance / R), which holds for small
       angles only, where sin(phi) is almost phi. Integrate with sin(phi)
     one-step: your function adds distance sin(phi) / R once. The rate sin(phi) / R
-      changes along the way, so integrate it
+      changes along the path, so integrate it
     """
     return {
         "small-angle": phi * np.exp(distance / R),

@@ -72,7 +72,7 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
       output h. The output is tanh already, so the derivative is 1 - h^2
     bias-mean: the gradients of the biases are means over the rows. The loss has the
       factor 1 / (n m) already, so sum over the rows
-    summed-loss: the gradient is that of the sum of the squares. The loss is their mean,
+    summed-loss: the gradient belongs to the sum of the squares. The loss is their mean,
       so divide by n m
     rows-only: the gradient is divided by the number of rows. The loss is a mean over
       rows and columns, so divide by n m

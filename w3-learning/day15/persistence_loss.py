@@ -32,8 +32,8 @@ row.cases(
 @row.wrongs(hidden={"by-number": "each number of the lab occurs once"})
 def _(action, episode):
     """across-episodes: the change from the last row of an episode to the first row of
-      the next one is included. Nobody repeats an action of another episode: leave these
-      pairs out
+      the next one is included. The policy repeats no action of another episode: leave
+      these pairs out
     start-from-0: the first row of each episode is included, with a last action of 0.
       This row has no last action: leave it out
     counted-as-0: the pairs across two episodes are counted as changes of 0. Leave them

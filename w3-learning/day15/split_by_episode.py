@@ -27,7 +27,7 @@ def _(episode, held_out):
     """rows-for-episodes: the numbers in held_out are used as indices of rows. They are
       numbers of episodes: hold out every row whose entry in episode is one of them
     as-many-rows: the last rows are held out, as many as held_out has entries. Rows of
-      one episode then are in both parts
+      one episode are then in both parts
     """
     rows = np.arange(len(episode))
     return {

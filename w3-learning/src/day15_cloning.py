@@ -5,7 +5,7 @@
 
 Rows of data are pairs of an observation (pusher x, y, puck x, y), m, and an action, the
 velocity of the pusher, m/s. A network is six arrays: W1, b1, W2, b2, W3, b3. Losses are
-those of normalised actions, so the mean action has the loss 1.
+computed on normalised actions, so the mean action has the loss 1.
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
@@ -49,9 +49,9 @@ def contact_angle(phi: float, distance: float, R: float) -> float:
 
 
 def split_by_episode(episode: np.ndarray, held_out: np.ndarray) -> np.ndarray:
-    """Return which rows are held out, (n,), True or False: those of whole episodes.
+    """Return a mask, (n,): True for each row of the episodes that are held out.
 
-    episode (n,) is the number of each row's episode, and held_out (k,) are the numbers
+    episode (n,) has the number of each row's episode, and held_out (k,) the numbers
     of the episodes that are held out. Episodes (4, 4, 0, 0, 2) and held_out (2, 4):
     (True, True, False, False, True).
     """
@@ -77,9 +77,9 @@ def fit_scaler(x: np.ndarray) -> np.ndarray:
 
 
 def normalise(x: np.ndarray, scaler: np.ndarray) -> np.ndarray:
-    """Return x (n, d), each column minus its mean, divided by its standard deviation.
+    """Return x (n, d) with the mean subtracted, divided by the standard deviation.
 
-    scaler (2, d) is from `fit_scaler`, usually of other rows. normalise([[5, 4]], [[2,
+    scaler (2, d) is from `fit_scaler`, usually for other rows. normalise([[5, 4]], [[2,
     4], [1, 1]]) -> [[3, 0]]
     """
     # region 15.3
@@ -88,7 +88,7 @@ def normalise(x: np.ndarray, scaler: np.ndarray) -> np.ndarray:
 
 
 def denormalise(z: np.ndarray, scaler: np.ndarray) -> np.ndarray:
-    """Return the x (n, d) whose normalised form is z (n, d): `normalise` undone.
+    """Return x (n, d) with the normalised form z (n, d): the inverse of `normalise`.
 
     scaler (2, d) is from `fit_scaler`. denormalise([[3, 0]], [[2, 4], [1, 1]]) -> [[5,
     4]]
@@ -107,12 +107,12 @@ def mlp(
     W3: np.ndarray,
     b3: np.ndarray,
 ) -> np.ndarray:
-    """Return the outputs of a network with two layers of tanh and a linear one, (n, m).
+    """Return the outputs of a network with two hidden layers of tanh units, (n, m).
 
     x (n, a) has one sample per row, so a layer computes x W + b. The weights are W1 (a,
-    h), W2 (h, g), W3 (g, m), the biases b1 (h,), b2 (g,), b3 (m,). Complex numbers pass
-    through. The row (1, 2), with identity matrices for W1 and W2, b1 and b2 of 0, ones
-    for W3 and b3 = 0.5, gives 1.888083.
+    h), W2 (h, g), W3 (g, m), the biases b1 (h,), b2 (g,), b3 (m,). Complex arrays are
+    accepted. For the row (1, 2), identity matrices W1 and W2, b1 = b2 = 0, ones in W3
+    and b3 = 0.5, the output is 1.888083.
     """
     # region 15.4
     first = np.tanh(x @ W1 + b1)  # outputs of the first layer
@@ -143,12 +143,13 @@ def mlp_gradient(
     W3: np.ndarray,
     b3: np.ndarray,
 ) -> tuple[np.ndarray, ...]:
-    """Return the gradient of mse(mlp(x, ...), target) by backpropagation: six arrays.
+    """Return the six arrays of the gradient of the loss, by backpropagation.
 
-    x (n, a) and target (n, m) are rows; the weights are as in `mlp`. The result has the
-    derivatives with respect to W1, b1, W2, b2, W3, b3, in the shapes of these arrays.
-    All weights 1, biases 0, x 1 and target 0 give 0.316986, 0.316986, 0.574832,
-    0.754774, 0.824366 and 1.284030.
+    The loss is the mean squared error of mlp(x, ...) for the target. x (n, a) and
+    target (n, m) are rows; the weights are as in `mlp`. The result has the derivatives
+    with respect to W1, b1, W2, b2, W3, b3, in the shapes of these arrays. All weights
+    1, biases 0, x 1 and target 0 give 0.316986, 0.316986, 0.574832, 0.754774, 0.824366
+    and 1.284030.
     """
     # region 15.6
     first = np.tanh(x @ W1 + b1)  # outputs of the first layer
@@ -179,9 +180,9 @@ def adam_step(
 
     theta (n,) are the parameters and grad (n,) the gradient of the loss. m and v (n,)
     are the running averages of the gradient and of its square, with the decay rates 0.9
-    and 0.999. k = 1, 2, ... is the number of this step. Divide m by 1 - 0.9^k and v by
-    1 - 0.999^k for the update only: the returned m and v are not divided. Then subtract
-    rate times mean / (sqrt(square) + 1e-8).
+    and 0.999. k = 1, 2, ... is the number of this step. For the update only, each
+    average is divided by the factor that corrects for its start at 0: the returned m
+    and v are not divided. Add 1e-8 to the root.
     adam_step([1], [3], [0], [0], 1, 0.01) -> ([0.99], [0.3], [0.009])
     """
     # region 15.7
@@ -197,9 +198,9 @@ def persistence_loss(action: np.ndarray, episode: np.ndarray) -> float:
     """Return the loss of the policy that repeats the last action.
 
     action (n, m) has the actions in the order of time, and episode (n,) the number of
-    each row's episode. The loss is the mean squared change of the action from one row
-    to the next, over all columns and over all pairs of adjacent rows that have the same
-    episode number. persistence_loss([[0], [1], [5], [5.5]], [0, 0, 1, 1]) -> 0.625
+    each row's episode. The loss is the mean squared difference between an action and
+    the last action, over all columns and over all rows that have a last action.
+    persistence_loss([[0], [1], [5], [5.5]], [0, 0, 1, 1]) -> 0.625
     """
     # region 15.8
     change = action[1:] - action[:-1]  # the change from each row to the next
@@ -209,7 +210,7 @@ def persistence_loss(action: np.ndarray, episode: np.ndarray) -> float:
 
 
 def nearest_distance(known: np.ndarray, asked: np.ndarray) -> np.ndarray:
-    """Return each asked row's distance to the nearest known row, (m,).
+    """Return the distance from each row of asked to the nearest row of known, (m,).
 
     The rows are known (n, d) and asked (m, d); distances are Euclidean.
     nearest_distance([[0, 0], [3, 4]], [[0, 1]]) -> [1]
@@ -226,7 +227,7 @@ class Clone:
     """A network with the scalers of its inputs and of its actions."""
 
     def __init__(self, net, inputs: np.ndarray, actions: np.ndarray) -> None:
-        """Take six arrays and two scalers."""
+        """Store the six arrays of a network and two scalers."""
         self.net = net
         self.inputs = inputs
         self.actions = actions
@@ -236,7 +237,7 @@ class Clone:
         return denormalise(mlp(normalise(x, self.inputs), *self.net), self.actions)
 
     def loss(self, x: np.ndarray, action: np.ndarray) -> float:
-        """Return the loss for some rows."""
+        """Return the mean squared error of the normalised actions."""
         pred = mlp(normalise(x, self.inputs), *self.net)
         return mse(pred, normalise(action, self.actions))[0]
 
@@ -262,7 +263,7 @@ def blind_pushes(lab: Lab, model, data) -> None:
         print(f"{1e3 * beside:14.0f} mm{1e3 * predicted:12.1f}{1e3 * measured:12.1f}")
         off.append(measured / predicted - 1)
         if beside == 0.01:
-            lab.measured("path of a blind push, 10 mm beside the line, mm",
+            lab.measured("path of a blind push, 10 mm off the centre, mm",
                          1e3 * measured)  # fmt: skip
     lab.record("slip", off, label="|measured / predicted - 1|")
 
@@ -276,7 +277,7 @@ def beside_the_line(seen: np.ndarray) -> float:
 
 
 def drift(lab: Lab, model, data) -> None:
-    """Compare where a constant sideways error ends with your slip of a small angle."""
+    """Compare the lateral distance that a sideways error causes with the prediction."""
     slip = np.log(contact_angle(1e-4, R, R) / 1e-4) / R  # 1/m
     gain = day15_mujoco.STEER - day15_mujoco.PUSH * (slip + 1 / FAR)
     start = np.array([[FAR + R, 0.0, FAR, 0.0]])  # behind the puck; left is -y
@@ -293,7 +294,7 @@ def drift(lab: Lab, model, data) -> None:
 
 
 def data_of(lab: Lab):
-    """Return demonstrations for training, and those that are held out.
+    """Return the demonstrations for the training, and the held-out demonstrations.
 
     Each is (observation (n, 4), action (n, 2), episode (n,)).
     """
@@ -313,7 +314,7 @@ def data_of(lab: Lab):
 
 
 def check_scaler(lab: Lab, rows: np.ndarray) -> None:
-    """Check that normalised columns have mean 0 and std 1, and come back."""
+    """Check the mean and std of normalised columns, and that denormalise inverts."""
     scaler = fit_scaler(rows)
     z = normalise(rows, scaler)
     lab.check("mean and std - 1 of each column", [z.mean(axis=0), z.std(axis=0) - 1])
@@ -380,7 +381,7 @@ def train(lab: Lab, title: str, x: np.ndarray, action: np.ndarray) -> Clone:
 
 
 def first_loss(lab: Lab, x: np.ndarray, action: np.ndarray) -> None:
-    """Check the loss before training: the output is 0, the mean of what is asked."""
+    """Check the loss before training: the output is 0, the mean of the targets."""
     net = cloning.random_net(np.random.default_rng(SEED), 4, UNITS, 2)
     loss = Clone(net, fit_scaler(x), fit_scaler(action)).loss(x, action)
     print(f"  loss before training: {loss:.3f}")
@@ -396,7 +397,7 @@ def with_last(episodes_of: np.ndarray, action: np.ndarray) -> np.ndarray:
 
 
 def tested(policy) -> day15_mujoco.Episodes:
-    """Return what a policy does from the starts of the test."""
+    """Return the episodes of a policy from the starts of the test."""
     start = day15_mujoco.starts(TESTED, np.random.default_rng(STARTS_SEED))
     # mujoco.mj_step runs the policy
     return day15_mujoco.run(*day15_mujoco.scene(), start, policy)
@@ -421,7 +422,7 @@ def repeating(clone: Clone, truth: bool = False):
 
 
 def told(name: str, home: np.ndarray) -> None:
-    """Print about how many pucks a policy brings home, and Wilson's interval."""
+    """Print the rounded number of pucks at home, and Wilson's interval."""
     n = 5 * round(np.sum(home) / 5)  # it may differ between machines
     _, low, high = success_rate(np.arange(len(home)) < n)
     print(f"  {name:25} about {n:3} of {len(home)}, 95 %: {low:.2f} to {high:.2f}")
