@@ -202,11 +202,27 @@ def _shown(file: Path, name: Path) -> str:
 
 
 def _commands(makefile: str) -> str:
-    """Return a page with a heading per command of `make`, so that a search finds it."""
+    """Return a page with a table of the commands of `make`, which a search finds.
+
+    Each row is a definition of Sphinx's, so that the search lists the command itself.
+    """
     found = VERB.findall(makefile)
     verbs = sorted(found, key=lambda verb: (verb[1] == "", verb[1]))
-    parts = [f"## make {name}\n\n{_sentence(says)}\n" for name, _, says in verbs]
-    return COMMANDS + "\n".join(parts)
+    parts = [COMMANDS]
+    for heading, some in (
+        ("The commands of a day", [verb for verb in verbs if verb[1]]),
+        ("All other commands", [verb for verb in verbs if not verb[1]]),
+    ):
+        rows = [_row(name, says) for name, _, says in some]
+        parts += [f"## {heading}\n\n| command | what it does |\n|---|---|\n"]
+        parts += [*rows, "\n"]
+    return "".join(parts)
+
+
+def _row(name: str, says: str) -> str:
+    """Return a row of the table of commands, with an anchor of its own."""
+    told = _sentence(says).replace("|", "\\|")
+    return f"| [](){{#make-{name}}} `make {name}` | {told} |\n"
 
 
 def _sentence(words: str) -> str:
