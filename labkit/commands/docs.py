@@ -101,7 +101,7 @@ def same(old: str, new: str) -> bool:
 def days_list(wanted: str, folder: Path) -> str:
     """Return a table of captioned pictures, one per day, with links to the guides.
 
-    A document that lists one week alone has a line for each of its days below the table.
+    A document that lists one week alone also has a line for each of its days.
 
     Args:
         wanted: the name of its folder; `w*` is every week.
