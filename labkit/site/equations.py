@@ -39,7 +39,8 @@ _POWER = r"(?:\^(?:\[[^\]\n]*\]|\([^)\n]*\)|-?\w+|\+))"
 _BELOW = r"(?:_(?:\(\w[-+]\w\)|[ij]?[a-zA-Z\d]|space|site|body)\b)"
 _ATOM = (
     rf"(?:{'|'.join(sorted(NAMES, key=len)[::-1])}|[QVlf](?:xx|uu|ux)"
-    rf"|(?:{_LETTER})(?:dot|dd|d)?\d?(?<!\w\w\w\w\w\w\w)|[qSB]n|\d+|[a-z]+(?=\^))"
+    rf"|(?:{_LETTER})(?:dot|dd|d)?\d?|[qSB]n|\d+|[a-z]+(?=\^)"
+    rf"|(?<=\[)[a-z]+(?=\])|(?:sin|cos)(?=\)))"
 )
 _TERM = rf"{_OPEN}(?:[\ue000-\ue0ff]|{_ATOM}{_BELOW}?{_POWER}?)(?:[)\]|]{_POWER}?)*"
 _WORD = rf"(?:{_TERM}(?:/{_TERM})*|\.\.\.|[-+=/.](?=\s))"
@@ -50,7 +51,9 @@ _RUN = re.compile(
 _PARTIAL = re.compile(r"\bd[A-Z]\w*/dq|/dq_")
 _CROSS = re.compile(r"\b(omega(?:_\w)?|g) x (?=\w)")
 _EDGE = re.compile(r"^(?:[aA](?! sdd)|[-+=/.])\s+|\s+(?:a|[-+=/.]|\.\.\.)$")
-_STRONG = re.compile(rf"\^|{_BELOW}(?<!space)(?<!site)(?<!body)|[\ue000-\ue0ff]")
+_STRONG = re.compile(
+    rf"\^|\b(?:sin|cos|exp)\(|{_BELOW}(?<!space)(?<!site)(?<!body)|[\ue000-\ue0ff]"
+)
 # What stands before and after a part of a longer formula that is not read.
 _IN_ANOTHER = re.compile(r"[-+=/(\[|]\s*$"), re.compile(r"\s+[-+=/]\s|[(\[|)]")
 _MATRIX = "\ue000"  # the first letter that stands for a matrix in a run
