@@ -594,7 +594,8 @@ def test_films_are_small_and_linked_where_their_picture_stands(site):
     from labkit.site import build
 
     names = sorted(build.films())
-    assert len(names) == 7
+    days = {int(re.match(r"day(\d+)_", name)[1]) for name in names}
+    assert days == {day.number for day in all_days()} - {8, 10}  # pictures alone
     pages = {path: path.read_text("utf-8") for path in site.glob("w*/docs/*-lab.html")}
     for name in names:
         film = site / "_static" / "films" / f"{name}.html"
