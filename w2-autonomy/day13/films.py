@@ -21,7 +21,7 @@ def circles() -> Recording:
     methods = (
         ("Day 3's step, clamped", figures.clamped, "red"),
         ("qp_ik", lab.best_step(), "blue"),
-        ("qp_ik, orientation weight 0.01", lab.best_step(0.01), "green"),
+        ("qp_ik, weight 0.01", lab.best_step(0.01), "green"),
     )
     film = Recording(panda.load("panda_nohand", meshes=True), back=1.4)
     film.draw.curve(wanted, "grey", 2.0)
@@ -35,9 +35,7 @@ def circles() -> Recording:
         for k in range(EVERY, len(wanted), EVERY):
             film.pose(q[k])
             pen.points = np.stack([points[:k], points[1 : k + 1]], 1).astype(np.float32)
-            film.say(
-                f"{name}: {off[k]:.0f} mm off, at most {off[: k + 1].max():.0f} mm"
-            )
+            film.say(f"{name}: at most {off[: k + 1].max():.0f} mm off")
             film.wait(EVERY * lab.DT / 1.5)
         film.wait(0.7)
     return film

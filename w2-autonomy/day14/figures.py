@@ -106,7 +106,7 @@ def lifted(mu: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return an episode of the learned policy with a cube of 150 g.
 
     Returns:
-        The Panda's configurations (n, 9), with the hand and the pads of the episode, the
+        The Panda's configurations (n, 9), with hand and pads of the episode, the
         cube's positions relative to the point between the pads when it is grasped,
         (n, 3), and the smallest margins of the friction cone, N, (n,).
     """

@@ -13,7 +13,7 @@ EVERY = 2  # samples of 10 ms in a frame: 0.4 times the real speed
 
 
 def slip() -> Recording:
-    """Return two lifts with the same policy, and the margin of the friction cone."""
+    """Return two lifts with the same policy, and the height of the cube."""
     figures = find_day(14).module("figures")
     T = panda.arm(panda.load("panda_nohand")).at(panda.READY_Q).T_world_ee
     tcp = (T @ se3.make_T(np.eye(3), scenes.TCP))[:3, 3]
@@ -29,14 +29,14 @@ def slip() -> Recording:
             type=box, size=(0.15, 0.15, 0.005), pos=top, rgba=(0.5, 0.4, 0.3, 1)
         )
 
-    film = Recording(panda.load("panda", meshes=True, edit=edit), back=0.75)
+    film = Recording(panda.load("panda", meshes=True, edit=edit), back=1.0)
     for mu in figures.GRIPS:
-        q, cube, margin = figures.lifted(mu)
+        q, cube, _ = figures.lifted(mu)
         for k in range(0, len(q), EVERY):
             place = [*(tcp + cube[k] - cube[0]), 1.0, 0.0, 0.0, 0.0]
             film.pose([*q[k], *place])
             up = 1000 * (cube[k, 2] - cube[0, 2])
-            film.say(f"friction {mu}: margin {margin[k]:.2f} N, cube {up:.0f} mm up")
+            film.say(f"friction {mu}: the cube is {up:.0f} mm up")
             film.wait(1.5 / FRAMES)
         film.wait(1.0)
     return film
