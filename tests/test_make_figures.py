@@ -58,6 +58,20 @@ def test_a_days_small_picture_is_dark_and_its_number_stands_in_the_days_line(day
     assert np.asarray(kept).std() > 15  # and shows something
 
 
+@pytest.mark.parametrize("day", all_days(), ids="day{0.number}".format)
+def test_a_film_has_a_still_picture_in_the_guide_that_is_no_copy_to_hand_in(day):
+    pytest.importorskip("viser", reason="needs viser: make view")
+    films, pictures = day.offered("films"), lesson_figures(day.number)
+    guide = (day.folder / day.guide).read_text("utf-8")
+    assert films
+    for name in films:
+        assert name in pictures
+        path = day.folder / "figures" / f"{name}.png"
+        assert f"](../figures/{name}.png)" in guide
+        assert f"figures/{name}.png" in day.kit_figures
+        assert path.stat().st_size < 100_000
+
+
 def test_a_long_number_on_a_small_picture_is_not_cut():
     black = Image.new("RGB", cards.SIZE)
     for number in ("7", "39 of 60", "12,345 of 67,890"):

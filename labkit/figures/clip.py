@@ -139,7 +139,7 @@ def words_of(path: Path) -> tuple[str, ...]:
     """Return the different words that the frames of a WebP clip show, in order."""
     with Image.open(path) as clip:
         said = clip.getexif().get(ExifTags.Base.ImageDescription, "")
-    return tuple(said.splitlines())
+    return tuple(said.encode().decode("unicode_escape").splitlines())
 
 
 def kind_of(path: Path) -> str:
@@ -155,7 +155,8 @@ def _encoded(
 ) -> bytes:
     """Return a clip's bytes; each frame, or all of them, by milliseconds."""
     about = Image.Exif()
-    about[ExifTags.Base.ImageDescription] = words
+    escaped = words.encode("unicode_escape").decode()  # the field is ASCII
+    about[ExifTags.Base.ImageDescription] = escaped
     buffer = io.BytesIO()
     if kind == "gif":  # one palette, no dither: what stands still costs nothing; a
         # small cube keeps its colour

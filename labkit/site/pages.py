@@ -63,7 +63,7 @@ TABLE = """\
 {}```
 """
 ROW = """\
-   * - .. index:: make {0}
+   * - .. index:: ! make {0}
           :name: make-{0}
 
        ``make {0}``

@@ -37,7 +37,7 @@ def strobe() -> Recording:
         film.pose(q)
         done = int(np.sum(dots <= now))
         left.points = pens[:done]
-        film.say(f"{done} samples, no contact: {1000 * far[k]:.0f} mm away")
+        film.say(f"samples: {done}, no contact; {1000 * far[k]:.0f} mm away")
         if k == touch:
             hit.points = day11_mujoco.pen(q)[None].astype(np.float32)
             film.say(f"contact between two samples: {1000 * far[k]:.0f} mm")

@@ -98,7 +98,7 @@ def small() -> Image.Image:
 def floating() -> dict[str, simulate.Run]:
     """Return how the loaded arm floats, by the load in the model of its gravity.
 
-    The noise of the measurements is that of the lab, so the numbers are, too.
+    The noise of the measurements is the lab's own, so the numbers are the lab's, too.
     """
     model = panda.load("panda_nohand", drive="torque")
     arm = panda.arm(model)
