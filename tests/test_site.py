@@ -569,7 +569,7 @@ def test_the_home_page_is_small_and_leads_to_the_arm(browse, site, served):
     assert page.inner_text(".live .verdict").startswith("Right, at all")
     assert page.evaluate(f"{shown}.drawn") is None
     page.fill(".live .code input", "Rz(q")
-    assert page.inner_text(".live .verdict") .startswith("Not read: a ) is")
+    assert page.inner_text(".live .verdict").startswith("Not read: a ) is")
     link = page.get_by_text("Try it now, nothing to install")
     assert link.bounding_box()["y"] < 600
     link.click()
