@@ -5,7 +5,7 @@ from types import ModuleType
 
 __version__ = "0.2.0"
 
-# What labs of before December 2026 have typed.
+# Names that labs of before December 2026 import.
 _WAS = {
     "dynamics_batch": "robo47.fast.dynamics",
 }

@@ -21,7 +21,7 @@ A caller reads only the attribute `failed` of a result.
 """
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import mujoco
 
@@ -37,7 +37,7 @@ class Summary(NamedTuple):
     of: str  # the meaning of the number: "from the cube to its mark"
     came: str  # a sentence for a page: what came of it, and what is allowed
     way: str  # another: how it went
-    # What it measured: (what, how much with its unit, what is allowed).
+    # The measured quantities: (what, how much with its unit, what is allowed).
     figures: Sequence[tuple[str, str, str]] = ()
 
 
@@ -52,7 +52,7 @@ class Block(NamedTuple):
 class Film(NamedTuple):
     """The motion of an attempt."""
 
-    seconds: float  # how long it took
+    seconds: float  # the duration of the attempt
     t: Array  # time of each instant, seconds, (N,)
     # Everything's configuration then, (N, nq); first the nine numbers of the Panda with
     # its hand.
@@ -61,4 +61,14 @@ class Film(NamedTuple):
     moments: Sequence[str]  # phases whose beginnings a picture shows
     blocks: Callable[[Array], Sequence[Block]]  # blocks of a configuration, (nq,)
     model: Callable[[], mujoco.MjModel]  # the scene with the robot's looks
-    back: float  # how far back a camera stands: 1 suits an arm at ready
+    back: float = 1.2  # the camera's distance as a factor; 1 suits an arm at ready
+
+
+def film_of(result: Any, **scene: Any) -> Film:
+    """Return the film of a result.
+
+    Args:
+        result: has `seconds`, `t`, `qpos` and `phases`, as a `Film` has them.
+        scene: the other fields of the film.
+    """
+    return Film(result.seconds, result.t, result.qpos, result.phases, **scene)

@@ -26,7 +26,8 @@ from robo47.rotation_log import log_rotation as log_rotation
 from robo47.rotation_log import pose_error as pose_error
 from robo47.screws import adjoint, exp_screw, skew
 
-SINGULAR = 1e-12  # of the largest singular value; a smaller one is treated as 0
+# A singular value below this fraction of the largest one is treated as 0.
+SINGULAR = 1e-12
 
 
 def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
@@ -158,7 +159,7 @@ def manipulability(J: ArrayLike) -> Array:
         ValueError: wrong shape or a non-finite number.
     """
     J = checks.array(J, "J", ("m", "n"))
-    # From the singular values: det(J J^T) has only half the digits near 0.
+    # The singular values are used because det(J J^T) has only half the digits near 0.
     values = np.linalg.svd(J, compute_uv=False).prod(axis=-1)
     return values if J.shape[-2] <= J.shape[-1] else 0.0 * values
 

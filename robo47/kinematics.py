@@ -32,7 +32,7 @@ from robo47 import se3
 from robo47.checks import Array
 from robo47.fast.chains import Cursor, Plan, evaluate
 
-_TYPES = ("free", "ball", "slide", "hinge")  # in the order of mujoco.mjtJoint
+_TYPES = ("free", "ball", "slide", "hinge")  # the order is that of mujoco.mjtJoint
 
 
 @dataclass(frozen=True)

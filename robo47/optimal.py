@@ -29,8 +29,10 @@ from robo47 import checks
 from robo47.checks import Array
 from robo47.dynamics import gravity_torque
 
-STEPS = 100, 10  # of `box_qp` at most, and more for each entry; seven take about ten
-ROUNDING = 1e-14  # of an entry's size; a smaller KKT residual is a rounding error
+# The most steps of `box_qp`, and more for each entry; seven take about ten.
+STEPS = 100, 10
+# A KKT residual below this fraction of an entry's size is a rounding error.
+ROUNDING = 1e-14
 
 
 def gravity_stiffness(
@@ -406,5 +408,6 @@ def _until_a_limit(
     if share[met] >= 1.0:
         return np.clip(x + step, lo, hi), None
     there = x + share[met] * step
-    there[met] = hi[met] if step[met] > 0.0 else lo[met]  # without rounding
+    # The limit itself has no rounding error.
+    there[met] = hi[met] if step[met] > 0.0 else lo[met]
     return np.clip(there, lo, hi), met

@@ -182,7 +182,8 @@ class Shape:
         if len(world.boxes):
             R = world.boxes[:, :3, :3]
             t = world.boxes[:, :3, 3]
-            start = ((a0 - t)[..., None, :] @ R)[..., 0, :]  # in the box frames
+            # The point is expressed in the box frames.
+            start = ((a0 - t)[..., None, :] @ R)[..., 0, :]
             end = ((a1 - t)[..., None, :] @ R)[..., 0, :]
             far.append(near.box_distances(start, end, world.half))
         if not far:
@@ -203,7 +204,7 @@ class Shape:
 
     @cached_property
     def distal_radii(self) -> Array:
-        """For each joint an upper bound on the distance to distal points, m, (7,)."""
+        """An upper bound on the distance of distal points from each joint, m, (7,)."""
         return distal_radii(*self.lengths)
 
     @cached_property

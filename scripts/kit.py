@@ -9,6 +9,7 @@ kit needs is in .venv, and that is where the script goes on. The labs do the sam
 import os
 import sys
 
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy: its matrices are small
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 NEEDED = ("robo47", "numpy", "mujoco", "tqdm")
 CRASHED = 70  # the exit code where the kit itself failed; 0, 1 and 2 say other things

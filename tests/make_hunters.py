@@ -21,7 +21,7 @@ from labkit.lesson.starter import put_back
 from robo47.paths import METRICS_CSV, ROOT
 
 DAY, LEVEL, SEED = find_day(4), 1, 7
-GUILTY = draw(DAY, LEVEL, SEED, []).quarries[0].function
+GUILTY = draw(DAY, LEVEL, SEED, []).mistakes[0].function
 INNOCENT = next(f for task in DAY.tasks for f in task.functions if f != GUILTY)
 AUTHOR = ("-c", "user.name=A", "-c", "user.email=a@b", "-c", "commit.gpgsign=false")
 

@@ -52,7 +52,7 @@ class TestAnIndex:
             (
                 lambda x, at: int(np.argmin(np.abs(x - at))) + 1,
                 "counted-from-one",
-                "The index is counted from 1; it should be counted from 0.",
+                "Your index is counted from 1. It should be counted from 0.",
             ),
             (
                 lambda x, at: float(np.argmin(np.abs(x - at))),
@@ -93,7 +93,7 @@ class TestATruthValue:
         [
             (lambda x, sure: bool(x > 0.0 and not sure), "", ""),
             (lambda x, sure: np.bool_(x > 0.0 and not sure), "", ""),
-            (lambda x, sure: not (x > 0 and not sure), "inverted", "are swapped"),
+            (lambda x, sure: not (x > 0 and not sure), "inverted", "swaps True"),
             (
                 lambda x, sure: x > 0.0,
                 "too-often-true",
@@ -134,7 +134,7 @@ class TestAWord:
             (
                 lambda x: WORDS[int(x > -3)],
                 "the-other-word",
-                "'advanced'; expected 'trapped'. The result is right for 5 of 9",
+                "'advanced'; expected 'trapped'. The result is wrong in 4 of 9",
             ),
             (
                 lambda x: "arrived",
@@ -180,18 +180,18 @@ class TestAPath:
             (
                 lambda s, n: np.arange(1, n + 1)[:, None] * s * [[1.0, 1 + (n > 4)]],
                 "off",
-                "The result is right for 5 of 6 inputs",
+                "The result is wrong in 1 of 6 calls",
             ),
             (
                 lambda s, n: np.arange(1, n)[:, None] * s,
                 "one-too-few",
-                "Your path has 2 waypoints; expected 3, in call 1 of 6. The last way "
-                "point is missing. All but the last give the same output.",
+                "The last way point is missing. Your path has a wrong number of "
+                "waypoints in 5 of 6 calls. The reference solution with this mistake",
             ),
             (
                 lambda s, n: np.arange(0, n + 2)[:, None] * s,
                 "shape",
-                "Your path has 5 waypoints; expected 3, in call 1 of 6.",
+                "Your path has a wrong number of waypoints in 6 of 6 calls.",
             ),
             (
                 lambda s, n: np.arange(1, n + 1) * s[0],
@@ -237,12 +237,12 @@ class TestATuple:
             (
                 lambda i, point, free: (i, (point, not free)),
                 "inverted",
-                "free: True and False are swapped",
+                "Free: your code swaps True and False",
             ),
             (
                 lambda i, point, free: (i, (-point, free)),
                 "all-signs",
-                "Every sign is wrong.",
+                "Every sign of your result is wrong.",
             ),
             (
                 lambda i, point, free: (float(i), (point, free)),
@@ -324,7 +324,7 @@ class TestNone:
                 "none-or-not",
                 "Your function returns None for 1 input with an answer",
             ),
-            (lambda p, x: None if x < 0 else -x * p, "all-signs", "Every sign is"),
+            (lambda p, x: None if x < 0 else -x * p, "all-signs", "Every sign"),
             (lambda p, x: None if x < 0 else p + x**3, "off", "off by up to"),
         ],
     )

@@ -20,8 +20,8 @@ from labkit.grade import pull
 from labkit.lesson.added_code import kits_own
 from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import Limits, all_days, find_day
-from labkit.lesson.own_files import SCRIPT
 from labkit.lesson.starter import make_starter
+from labkit.lesson.untrusted_files import SCRIPT
 from labkit.sandbox import process, sandbox
 from labkit.sandbox.messages import library_of
 from robo47.errors import Robo47Error

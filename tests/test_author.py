@@ -9,7 +9,7 @@ from conftest import ROOT, kits_worksheet, run_copy
 from labkit.commands.new import worksheet_of
 from labkit.handin.worksheet import split_sections
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.predicted import rows_asked
+from labkit.lesson.predictions import rows_asked
 
 pytestmark = pytest.mark.kit
 NEW, AUTHOR = "scripts/new_day.py", "scripts/author_day.py"

@@ -6,8 +6,8 @@ import shutil
 import pytest
 
 from conftest import ROOT, SKIPPED, kit_folders, run_copy
-from labkit.author import docstring, hints, seen
-from labkit.author.moved import OUTPUTS, renumbered
+from labkit.author import display, docstring, hints
+from labkit.author.renumber import OUTPUTS, renumbered
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days, find_day
 
@@ -146,7 +146,7 @@ def test_the_number_of_a_section_is_none_of_a_case(monkeypatch):
 
 def test_a_shape_is_read_behind_its_argument_alone():
     text = "Return Y, (n, 7), of X (n, d). q, (7,), at (1, 2) is W (2, 2)."
-    found = docstring._told(text, ["X", "q", "W"])
+    found = docstring._documented_shapes(text, ["X", "q", "W"])
     assert found == [("X", "n, d"), ("q", "7,"), ("W", "2, 2"), ("", "n, 7")]
 
 
@@ -218,5 +218,5 @@ def test_pictures_of_two_sizes_are_told_by_their_sizes(tmp_path):
     paths = [tmp_path / "a.png", tmp_path / "b.png"]
     for path, size in zip(paths, ((400, 300), (400, 320)), strict=True):
         Image.new("RGB", size).save(path)
-    assert seen._apart(*paths) == "400 x 300 became 400 x 320"
-    assert seen._apart(paths[0], paths[0]) == ""
+    assert display._difference(*paths) == "400 x 300 became 400 x 320"
+    assert display._difference(paths[0], paths[0]) == ""

@@ -39,12 +39,14 @@ def told(row, function):
 
 
 def test_right_and_wrong_cases_are_listed():
-    assert (
-        told(toy(), lambda x: x) == "Right: positive numbers. Wrong: negative numbers."
-    )
+    says = "The result is right for positive numbers. It is wrong for negative numbers."
+    assert told(toy(), lambda x: x) == says
     # Right too where x is above -1: not in every call of the case.
     some = told(toy(), lambda x: x / 2 if -1 < x < 0 else x)
-    assert some == "Right: positive numbers. Wrong in some calls: negative numbers."
+    assert some == (
+        "The result is right for positive numbers. It is wrong in some calls with "
+        "negative numbers."
+    )
 
 
 def test_one_counterexample_among_the_fresh_inputs_and_a_case_is_not_right():
@@ -56,7 +58,10 @@ def test_one_counterexample_among_the_fresh_inputs_and_a_case_is_not_right():
 @pytest.mark.parametrize("bad", [np.nan, np.inf, None])
 def test_an_answer_that_is_missing_or_not_finite_is_wrong(bad):
     says = told(toy(), lambda x: x / 2 if x < 0 else (bad if x > 4 else x))
-    assert says == "Right: negative numbers. Wrong in some calls: positive numbers."
+    assert says == (
+        "The result is right for negative numbers. It is wrong in some calls with "
+        "positive numbers."
+    )
 
 
 def test_a_case_that_no_generator_draws_often_is_not_listed():
@@ -68,9 +73,8 @@ def test_a_case_that_no_generator_draws_often_is_not_listed():
     row.more["cases"] = ()
     row.cases(one=lambda x: x == -1, others=lambda x: x != -1)
     row.rare(lambda rng: [(-1.0,)])
-    assert (
-        told(row, lambda x: -0.5 if x == -1 else 99.0) == "Right: one. Wrong: others."
-    )
+    says = told(row, lambda x: -0.5 if x == -1 else 99.0)
+    assert says == "The result is right for one. It is wrong for others."
 
 
 def test_only_is_said_where_every_other_call_is_right():
@@ -80,7 +84,7 @@ def test_only_is_said_where_every_other_call_is_right():
              for i in range(-9, 9, 3)}  # fmt: skip
     row.cases(bands)
     wrong = told(row, lambda x: 99.0 if 3 <= x < 6 else x / 2 if x < 0 else x)
-    assert wrong == "Wrong only: numbers from 3 to 6."
+    assert wrong == "The result is wrong only for numbers from 3 to 6."
 
 
 def test_the_list_that_leaves_the_fewest_calls_open_is_told():
@@ -88,7 +92,9 @@ def test_the_list_that_leaves_the_fewest_calls_open_is_told():
     row.more["cases"] = ()
     row.cases(small_numbers=lambda x: abs(x) < 3, large_numbers=lambda x: abs(x) >= 3)
     row.cases(negative_numbers=lambda x: x < 0, positive_numbers=lambda x: x > 0)
-    assert told(row, lambda x: x).startswith("Right: positive numbers.")
+    assert told(row, lambda x: x).startswith(
+        "The result is right for positive numbers."
+    )
 
 
 # What the hooks of Days 11 and 12 said of these was false.
@@ -158,19 +164,21 @@ NAMES = {
 }
 OF_THE_REVIEW = [
     (11, only_the_fastest,
-     "Right: links that touch or overlap; motions of length 0. Wrong: steps in which "
-     "several joints move. Wrong in some calls: steps in which one joint moves; steps "
+     "The result is right for links that touch or overlap and motions of length 0. It "
+     "is wrong for steps in which several joints move. It is wrong in some calls with "
+     "steps in which one joint moves and steps "
      "that reach the end of the motion."),
-    (11, further, "Wrong in some calls: steps that end before"),
-    (11, first_reach, "Right: steps with equal radii;"),
+    (11, further, "It is wrong in some calls with steps that end before"),
+    (11, first_reach, "The result is right for steps with equal radii"),
     (11, steep_only,
-     "Right: velocities that are allowed; gradients of 0. Wrong in some calls: "
+     "The result is right for velocities that are allowed and gradients of 0. It is "
+     "wrong in some calls with"
      "velocities that are too fast, at a positive distance; velocities that are too "
      "fast, at a distance of 0 or less."),
-    (11, shallow, "points beyond three faces. Wrong: points in the box."),
-    (12, long_edges, "Wrong in some calls: edges that "),
-    (12, coarse, "Wrong in some calls: edges that start"),
-    (12, capped, "Wrong in some calls of every case"),
+    (11, shallow, "points beyond three faces. It is wrong for points in the box."),
+    (12, long_edges, "It is wrong in some calls with edges that "),
+    (12, coarse, "It is wrong in some calls with edges that start"),
+    (12, capped, "The result is wrong in some calls of every case"),
 ]  # fmt: skip
 
 

@@ -124,7 +124,7 @@ def test_two_mistakes_at_once_are_both_told():
         return np.array(found)
 
     says = told(4, "4.2", link_inertias=link_inertias)
-    assert says.startswith("Two things at once: ")
+    assert says.startswith("Your code has two mistakes. First, ")
 
 
 def test_the_call_shown_has_a_wrong_entry():
@@ -187,7 +187,9 @@ def test_two_mistakes_in_answers_of_several_sizes_are_both_told():
         return x + K @ y, P - K @ H, y @ np.linalg.solve(S, y)
 
     says = told(9, "9.5", kalman_update=kalman_update)
-    assert says.startswith("Two things at once: the innovation is H x - z")
+    assert says.startswith(
+        "Your code has two mistakes. First, the innovation is H x - z"
+    )
 
 
 def test_two_mistakes_that_only_come_near_are_not_told():

@@ -40,6 +40,14 @@ def reply(function, args):
     return Reply(value=value, again=value)
 
 
+def phrases_in(text, phrases):
+    """Yield the phrases of a list; the longest first, as one may hold another."""
+    for phrase in sorted(phrases, key=len, reverse=True):
+        if phrase in text:
+            text = text.replace(phrase, "")
+            yield phrase
+
+
 def printed(row, function):
     """Yield each condition of a wrong function: its words, what holds, its status.
 
@@ -58,9 +66,10 @@ def printed(row, function):
 
     by_phrase = {says: of for some in ask.cases for says, of in some.items()}
     says = in_cases(asked, answers)
-    for status, word in ((RIGHT, "Right: "), (WRONG, "Wrong: "), ("only", "only: ")):
-        _, there, rest = says.partition(word)
-        for phrase in re.split(r"\.(?:\s|$)", rest)[0].split("; ") if there else ():
+    told = {RIGHT: "is right for ", WRONG: "It is wrong for ", "only": "wrong only for"}
+    for status, word in told.items():
+        _, _, rest = says.partition(word)
+        for phrase in phrases_in(re.split(r"\.(?:\s|$)", rest)[0], by_phrase):
             yield phrase, functools.partial(of_call, by_phrase[phrase]), status, -1
     if not says:
         tried = experiments(asked, wrong[-QUESTIONS:], row.arguments, answers)

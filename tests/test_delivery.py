@@ -44,15 +44,15 @@ def test_a_cube_of_150_g_is_seen_weighed_slowed_and_delivered(right):
 
 def test_a_push_is_felt_one_or_two_samples_later(right):
     assert right.contact_link >= 4
-    assert 0.0 < right.noticed_ms < 25.0
+    assert 0.0 < right.detection_ms < 25.0
 
 
 def test_a_push_that_nobody_feels_or_that_is_felt_before_it_comes_is_none(right):
     for ms in (np.nan, -40.0):
-        result = right._replace(noticed_ms=ms)
+        result = right._replace(detection_ms=ms)
         assert result.failed
         assert any("nothing is felt" in line for line in delivery.summary(result).after)
-    assert not right._replace(noticed_ms=np.nan, pushed=False).failed
+    assert not right._replace(detection_ms=np.nan, pushed=False).failed
 
 
 @pytest.mark.kit
@@ -160,7 +160,7 @@ class TestTheWay:
     def test_is_straight_where_no_wall_is(self):
         result = cube(wall=False)
         assert not result.failed
-        assert result.looks < 300
+        assert result.queries < 300
 
     def test_is_refused_in_words_where_the_planner_finds_none(self):
         nothing = but(rrt_connect=lambda *_: np.empty((0, 7)))
@@ -175,12 +175,12 @@ class TestTheWay:
 @pytest.mark.kit
 class TestTheEye:
     def test_is_needed_only_for_the_place(self):
-        told = cube(told=True)
+        told = cube(known_pose=True)
         assert told.seen_mm == 0.0
         assert not told.failed
 
     def test_that_is_10_mm_beside_still_lifts_and_fails_all_the_same(self):
-        result = cube(beside=0.01)
+        result = cube(offset=0.01)
         assert result.seen_mm > 9.0
         assert not result.stopped
         assert result.failed

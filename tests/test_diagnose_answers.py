@@ -127,7 +127,7 @@ def test_a_tuples_parts_are_judged_apart_and_named():
     assert judged(ask, (x, twice)).status == "passed"
     verdict = judged(ask, (x, -twice))
     assert verdict.mistake == "all-signs"
-    assert verdict.message.startswith("the angle: ")
+    assert verdict.message.startswith("The angle: ")
     assert "expected 2 results" in told(ask, np.array(1.0)).message
 
 
@@ -163,9 +163,9 @@ def test_a_question_without_a_reply_is_the_callers_error():
 @pytest.mark.parametrize(
     ("kind", "S", "T", "word"),
     [
-        (Vector((7,), "N m"), np.ones(7) * 3, np.ones(7), "3 times the right one"),
+        (Vector((7,), "N m"), np.ones(7) * 3, np.ones(7), "3 times the correct value"),
         (Matrix((6, 6)), np.eye(6) + 2 * np.eye(6)[[5]].T, np.eye(6), "row 5"),
-        (Pose(), np.eye(4) * np.nan, np.eye(4), "off"),
+        (Pose(), np.eye(4) * np.nan, np.eye(4), "wrong"),
     ],
 )
 def test_each_kind_says_what_is_wrong_in_its_own_words(kind, S, T, word):

@@ -121,7 +121,7 @@ def test_every_output_in_the_documents_is_what_the_command_prints_today(
     ],
 )
 def test_a_drifted_output_is_found(monkeypatch, printed, same, drifted):
-    monkeypatch.setattr(docs, "wanted", lambda request: f"{printed}\n")
+    monkeypatch.setattr(docs, "requested_output", lambda request: f"{printed}\n")
     block = "<!-- run: python x -->\n```text\n{}\n```\n<!-- end -->"
     assert docs.rebuilt(block.format(same))[1] == []
     for old in drifted:

@@ -62,7 +62,7 @@ class TestTheEdition:
         assert begun.splitlines()[2:] == make_starter(text, "x", 1).splitlines()[2:]
         work.write_text(text.replace("-s, 0.0], [s, c", "s, 0.0], [-s, c"), "utf-8")
         done = run_copy(edition, "scripts/check_day.py", 1)
-        assert "your code rotates in the wrong sense" in " ".join(
+        assert "your code rotates in the wrong direction" in " ".join(
             done.stdout.lower().split()
         )
         work.write_text(text, "utf-8")

@@ -26,7 +26,7 @@ from labkit.grade.package import Package, collect, fingerprint
 from labkit.grade.roster import Student
 from labkit.handin import handin
 from labkit.handin.deliverables import check_deliverables
-from labkit.lesson import own_files
+from labkit.lesson import untrusted_files
 from labkit.sandbox import process, sandbox
 from labkit.sandbox.process import Process
 from labkit.sandbox.sandbox import Sandbox
@@ -502,10 +502,10 @@ def test_what_is_swapped_while_it_is_read_leads_nowhere(tmp_path, monkeypatch, w
 
     monkeypatch.setattr(os, "stat", looked)
     try:
-        found = own_files.read(tmp_path / "mine", "w/work/x.py", 100)
-    except own_files.UnreadError as error:
+        found = untrusted_files.read(tmp_path / "mine", "w/work/x.py", 100)
+    except untrusted_files.UnreadError as error:
         found = str(error)
-    assert found in (None, own_files.BEHIND_A_LINK, "is no file")
+    assert found in (None, untrusted_files.BEHIND_A_LINK, "is no file")
 
 
 def test_a_link_is_said_to_be_one_wherever_it_leads(tmp_path):

@@ -20,7 +20,7 @@ from labkit.fresh.missing import findings
 from labkit.lesson.day import find_day
 from labkit.lesson.metric import Metric
 from labkit.report.series import Series, series_of
-from labkit.report.week_labs import Ran
+from labkit.report.week_labs import LabResult
 from robo47.errors import Robo47Error
 
 FRESH = "scripts/fresh.py"
@@ -132,7 +132,7 @@ def ran(day, value, *, mine=False):
     metric = day.metrics[0]
     number = Series(1, metric)
     number.add({"value": value, "n_failures": 0, "n_trials": 1, "notes": ""})
-    return Ran(replace(day, metrics=(metric,)), mine, [number], "")
+    return LabResult(replace(day, metrics=(metric,)), mine, [number], "")
 
 
 def test_the_kits_own_numbers_have_no_row_and_must_pass(clone):
@@ -143,9 +143,9 @@ def test_the_kits_own_numbers_have_no_row_and_must_pass(clone):
     (fault,) = faults(ran(day, 1e-15, mine=True), clone)
     assert "no committed row of this file" in fault
     other = replace(day, metrics=(Metric("gone", "x", max=1.0),))
-    (fault,) = faults(Ran(other, False, series_of(other, []), ""), clone)
+    (fault,) = faults(LabResult(other, False, series_of(other, []), ""), clone)
     assert "recorded no such number" in fault
-    (fault,) = faults(Ran(day, True, [], "to do: 1.4"), clone)
+    (fault,) = faults(LabResult(day, True, [], "to do: 1.4"), clone)
     assert fault == "day 1, the lab does not pass: to do: 1.4"
 
 

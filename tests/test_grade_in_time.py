@@ -17,7 +17,7 @@ from labkit.commands import grade as command
 from labkit.commands import proof
 from labkit.grade import package as packages
 from labkit.grade import page, sheet
-from labkit.grade.course import Course, Graded, percent
+from labkit.grade.course import Course, GradedStudent, percent
 from labkit.grade.journal import Journal
 from labkit.grade.package import collect, read_in_time
 from labkit.grade.pull import pull_all
@@ -82,7 +82,7 @@ def test_a_page_to_show_is_of_the_commit_that_was_graded(clone, tmp_path, monkey
         return subprocess.CompletedProcess(words, 0, "", "")
 
     monkeypatch.setattr(command.processes, "run", run)
-    graded = [Course(DAY, [Graded(mia, result(8), commit=good)])]
+    graded = [Course(DAY, [GradedStudent(mia, result(8), commit=good)])]
     command.prove([mia], DAY.week.number, tmp_path / "proof", 1, graded)
     assert asked[-2:] == ["--graded", f"1:{good}"]
     assert proof.graded(asked[-1]) == {1: good}
@@ -121,7 +121,7 @@ def test_a_time_that_nobody_knows_is_said_to_be_unknown(clone, what):
     package = collected(clone)[0]
     assert package.committed is None
     mia = Student("Mia", "mia", clone)
-    one = Graded(mia, result(8), commit=package.commit, late=package.late)
+    one = GradedStudent(mia, result(8), commit=package.commit, late=package.late)
     assert one.late_by == ("unknown", "unknown")
     head, row = sheet.as_csv([one]).decode("utf-8-sig").splitlines()
     cells = dict(zip(head.split(","), row.split(","), strict=True))
@@ -380,7 +380,9 @@ def test_a_frozen_result_is_regraded_for_nobody_but_who_asks(clone, tmp_path):
     [(30, 0, (0, 0)), (-1, 2, (1, 1)), (-1441, 1, (1441, 2)), (5, None, (None, None))],
 )
 def test_the_table_says_how_late_in_minutes_and_begun_days(minutes, late, expected):
-    one = Graded(Student("A", "a", Path()), result(4), minutes=minutes, late=late)
+    one = GradedStudent(
+        Student("A", "a", Path()), result(4), minutes=minutes, late=late
+    )
     assert one.late_by == expected
     assert percent(one) == "50.0"
 
@@ -388,7 +390,7 @@ def test_the_table_says_how_late_in_minutes_and_begun_days(minutes, late, expect
 def test_a_table_for_handing_on_says_nothing_of_who_it_is():
     told = replace(result(2), error="no such folder mia", refused=("read /home/mia",))
     student = Student("Mia M", "mia", Path(), id="m@x.org")
-    mia = Graded(student, told, commit="abc123", minutes=5, note="mia")
+    mia = GradedStudent(student, told, commit="abc123", minutes=5, note="mia")
     text = sheet.as_csv(sheet.nameless([mia], 4711)).decode("utf-8-sig")
     head, row = text.splitlines()
     assert "mia" not in row.lower()
@@ -438,7 +440,7 @@ def test_again_means_nobody_everybody_or_who_is_named(typed, asked, kept):
 
 @pytest.mark.parametrize(("number", "said"), [(1, "1 student: "), (2, "2 students: ")])
 def test_a_class_of_one_is_one_student(number, said):
-    everybody = [Graded(Student("A", "a", Path()), result(4))] * number
+    everybody = [GradedStudent(Student("A", "a", Path()), result(4))] * number
     assert command.standings(Course(DAY, everybody)) == f"{said}{number} under way"
 
 

@@ -10,7 +10,7 @@ from test_grade_in_time import result
 
 from conftest import ROOT
 from labkit.grade import page
-from labkit.grade.course import Course, Graded
+from labkit.grade.course import Course, GradedStudent
 from labkit.grade.result import ungraded
 from labkit.grade.roster import find_students
 from labkit.grade.sheet import PLATFORMS, as_csv, for_platform, known, of_days
@@ -37,7 +37,7 @@ def class_of(tmp_path, head=HEAD):
     results = [result(min(i, 8)) for i in range(len(students))]
     days = results, [*results[:-1], ungraded(DAY, "")]
     return [
-        Course(find_day(number), list(map(Graded, students, found)))
+        Course(find_day(number), list(map(GradedStudent, students, found)))
         for number, found in enumerate(days, 1)
     ]
 
@@ -88,7 +88,7 @@ def test_a_name_that_students_give_themselves_stays_one_cell(tmp_path, whose):
     students = find_students(tmp_path)
     assert [one.folder for one in students] == [f"s{i}" for i in range(len(ODD))]
     assert {one.problem for one in students} == {""}
-    course = Course(DAY, [Graded(one, result(8)) for one in students])
+    course = Course(DAY, [GradedStudent(one, result(8)) for one in students])
     tables = [as_csv(course.class_), of_days([course])]
     tables += [for_platform(one, [course], "Day {day}") for one in (CANVAS, MOODLE)]
     for content in tables:
@@ -139,7 +139,7 @@ def test_the_teachers_guide_shows_what_is_written(tmp_path):
     tables = re.findall(r"```text\n((?:Student|ID number),.*?)```", guide, re.DOTALL)
     roster, canvas, moodle = tables
     (tmp_path / "roster.csv").write_text(roster)
-    class_ = list(map(Graded, find_students(tmp_path), (result(7), result(8))))
+    class_ = list(map(GradedStudent, find_students(tmp_path), (result(7), result(8))))
     for platform, title, table in (
         (CANVAS, "Lab {day}", canvas),
         (MOODLE, "Day {day}", moodle),

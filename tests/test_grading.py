@@ -34,7 +34,7 @@ from labkit.base import git
 from labkit.check.tasks import TaskResult
 from labkit.grade import charts, child, classroom, engine, page, similar
 from labkit.grade.child import _tidy
-from labkit.grade.course import Course, Graded
+from labkit.grade.course import Course, GradedStudent
 from labkit.grade.engine import Grader, grade_package
 from labkit.grade.journal import Journal
 from labkit.grade.package import Package, collect, fingerprint, unpack
@@ -271,7 +271,7 @@ class TestTheGrader:
         found = child.grade(Package(1, "", Handin(files)), DAY)
         assert found.tasks[0].passed
         assert found.refused == ("read /etc/shadow",)
-        one = Graded(Student("A", "a", Path()), found)
+        one = GradedStudent(Student("A", "a", Path()), found)
         assert ">read /etc/shadow</p>" in page.render(Course(DAY, [one]))
 
     def test_grades_nothing_for_another_kit(self):
@@ -908,10 +908,12 @@ class TestWhatDoesNotShow:
 
 
 def graded(*statuses: str, name: str = "", mistakes: dict[int, str] | None = None):
-    return Graded(Student(name, name, Path()), result(*statuses, mistakes=mistakes))
+    return GradedStudent(
+        Student(name, name, Path()), result(*statuses, mistakes=mistakes)
+    )
 
 
-def standing(class_: Sequence[Graded]) -> list[tuple[str, ...]]:
+def standing(class_: Sequence[GradedStudent]) -> list[tuple[str, ...]]:
     """Return what the page says beside each task, and the colours of its bar."""
     _, _, chart = page.render(Course(DAY, class_)).partition('aria-label="Tasks">')
     # A long label has a second, narrow text, which is no row of its own.
@@ -1032,7 +1034,7 @@ def test_a_cell_is_one_line_of_plain_text(text, shown):
 def test_a_mistakes_name_and_sentence_reach_the_table_as_plain_text():
     slips = result("wrong", *["todo"] * 7, mistakes={0: "named; =1+1"})
     told = replace(slips.tasks[0], message="=1+1; @x|y")
-    one = Graded(Student("A", "a", Path()), replace(slips, tasks=(told,)))
+    one = GradedStudent(Student("A", "a", Path()), replace(slips, tasks=(told,)))
     head, row = csv.reader(io.StringIO(as_csv([one]).decode("utf-8-sig")))
     cells = dict(zip(head, row, strict=True))
     assert cells["what_it_says"] == "'=1+1 – @x¦y"

@@ -17,8 +17,8 @@ from labkit.base.deadline import Deadline
 from labkit.commands import hunt
 from labkit.grade import engine, hunts, hunts_page
 from labkit.grade.roster import find_students
+from labkit.hunt import capstone_list, experiment, mistakes, tally
 from labkit.hunt import case as cases
-from labkit.hunt import experiment, quarry, tally, written
 from labkit.hunt.script import closed_capstone, closed_lab, is_closed, opened
 from labkit.hunt.verdict import judged
 from labkit.judge.row import rows_of
@@ -45,8 +45,8 @@ def clone(copy):
 
 def test_a_seed_draws_the_same_mistake_and_others_other_ones():
     day = find_day(4)
-    drawn = [quarry.drawn(day, 1, seed)[0] for seed in range(30)]
-    again = [quarry.drawn(day, 1, seed)[0] for seed in range(30)]
+    drawn = [mistakes.sample(day, 1, seed)[0] for seed in range(30)]
+    again = [mistakes.sample(day, 1, seed)[0] for seed in range(30)]
     assert [(q.function, q.slug) for q in drawn] == [
         (q.function, q.slug) for q in again
     ]
@@ -55,32 +55,32 @@ def test_a_seed_draws_the_same_mistake_and_others_other_ones():
 
 def test_ones_own_mistakes_are_not_drawn():
     day = find_day(4)
-    known = {q.slug for q in quarry.quarries(day)} - {"armature-per-link"}
+    known = {q.slug for q in mistakes.mistakes_of(day)} - {"armature-per-link"}
     for seed in range(10):
-        assert quarry.drawn(day, 1, seed, known)[0].slug == "armature-per-link"
+        assert mistakes.sample(day, 1, seed, known)[0].slug == "armature-per-link"
     with pytest.raises(Robo47Error, match="no mistake that you have not met"):
-        quarry.drawn(day, 1, 1, {q.slug for q in quarry.quarries(day)})
+        mistakes.sample(day, 1, 1, {q.slug for q in mistakes.mistakes_of(day)})
 
 
 def test_level_3_draws_two_functions():
-    first, second = quarry.drawn(find_day(4), 3, 7)
+    first, second = mistakes.sample(find_day(4), 3, 7)
     assert first.function != second.function
 
 
 def test_a_mark_finds_a_mistake_again_though_the_catalogue_has_changed(monkeypatch):
     day = find_day(4)
     case = cases.draw(day, 1, 7, [])
-    (first,) = case.quarries
-    pool = quarry.pool_of(day, 1)
-    monkeypatch.setattr(quarry, "pool_of", lambda *_: pool[::-1])
-    assert cases.Case(4, 1, 7, case.marks).quarries == [first]
-    monkeypatch.setattr(quarry, "pool_of", lambda *_: [q for q in pool if q != first])
+    (first,) = case.mistakes
+    pool = mistakes.pool_of(day, 1)
+    monkeypatch.setattr(mistakes, "pool_of", lambda *_: pool[::-1])
+    assert cases.Case(4, 1, 7, case.marks).mistakes == [first]
+    monkeypatch.setattr(mistakes, "pool_of", lambda *_: [q for q in pool if q != first])
     with pytest.raises(Robo47Error, match="no longer the mistake of this hunt"):
-        cases.Case(4, 1, 7, case.marks).quarries  # noqa: B018
+        cases.Case(4, 1, 7, case.marks).mistakes  # noqa: B018
 
 
 def test_a_kit_without_catalogues_says_so_in_a_line(monkeypatch):
-    monkeypatch.setattr(quarry, "quarries", lambda day: [])
+    monkeypatch.setattr(mistakes, "mistakes_of", lambda day: [])
     with pytest.raises(Robo47Error, match="nothing to hunt: this kit has no mistakes"):
         cases.draw(find_day(4), 1, 7, [])
 
@@ -104,13 +104,13 @@ def test_rows_of_hunts_add_up_to_found_and_named():
 
 def test_what_was_expected_stands_beside_the_run_in_80_columns():
     lines = ["1. A step", "  PASS  one: 0 (limit 1)", f"  FAIL  {'long ' * 30}: 2"]
-    told = experiment.beside("the torque of joint 4 is twice as large", lines)
+    told = experiment.side_by_side("the torque of joint 4 is twice as large", lines)
     assert max(map(len, told.splitlines())) <= 80
     assert "the torque of joint 4 is twice" in told.splitlines()[1]
     assert "FAIL  long" in told.splitlines()[1]
     assert told.endswith("1 check PASS")
     rows = ["  place  joints", "these functions  398.4", "  cut", "right ones  0.9"]
-    told = experiment.beside("", rows).splitlines()
+    told = experiment.side_by_side("", rows).splitlines()
     assert " ".join(told[1].split()) == "(nothing said) these functions 398.4 cut"
     assert told[2].strip() == "right ones 0.9"
 
@@ -120,7 +120,7 @@ def test_most_mistakes_can_be_hunted():
     for day in all_days():
         ways = [w for row in rows_of(day).values() for w in row.ways]
         wrong = [w for w in ways if w.status == "wrong" and not w.reached]
-        assert len(quarry.quarries(day)) >= 0.85 * len(wrong), day.number
+        assert len(mistakes.mistakes_of(day)) >= 0.85 * len(wrong), day.number
 
 
 @pytest.mark.kit
@@ -129,9 +129,9 @@ def test_most_mistakes_can_be_hunted():
 )
 def test_what_a_capstone_shows_is_in_the_catalogue(week):
     last = find_day(week.days[-1])
-    pool = {(one.function, one.slug) for one in quarry.asked_by(last)}
-    assert written.showing(week) <= pool
-    assert len(quarry.pool_of(last, 2)) > len(pool) / 4
+    pool = {(one.function, one.slug) for one in mistakes.called_by_capstone(last)}
+    assert capstone_list.visible_mistakes(week) <= pool
+    assert len(mistakes.pool_of(last, 2)) > len(pool) / 4
 
 
 @pytest.mark.kit
@@ -208,7 +208,7 @@ class TestTheCommand:
         assert self.hunt(run_in).stdout == done.stdout  # no keyboard: nothing is asked
         case = json.loads((clone / "w1-foundations/work/hunt/hunt.json").read_text())
         assert case["seed"] == 7
-        mistake = quarry.drawn(find_day(4, clone), 1, 7)[0]
+        mistake = mistakes.sample(find_day(4, clone), 1, 7)[0]
         for path in (clone / "w1-foundations/work/hunt").iterdir():
             assert mistake.slug not in path.read_text("utf-8")
         ran = self.hunt(run_in, 4, "--run")
@@ -222,7 +222,7 @@ class TestTheCommand:
     def test_finds_who_writes_the_right_function_anew(self, run_in, clone):
         self.hunt(run_in, 4, "--seed", 7)
         day = find_day(4, clone)
-        name = quarry.drawn(day, 1, 7)[0].function
+        name = mistakes.sample(day, 1, 7)[0].function
         script = clone / "w1-foundations/work/hunt/day4_dynamics.py"
         suspected = self.hunt(
             run_in, 4, "--suspect", name, "--expect", "M is too small"
@@ -253,7 +253,7 @@ class TestTheCommand:
         assert told.returncode == 1
         assert "ad: not it; it was right as it was." in told.stdout
         # It does not stand in the way of what is found next.
-        name = quarry.drawn(day, 1, 7)[0].function
+        name = mistakes.sample(day, 1, 7)[0].function
         script.write_text(put_back(script.read_text("utf-8"), right, (name,)))
         found = self.hunt(run_in, "--judge")
         assert found.returncode == 0

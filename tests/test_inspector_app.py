@@ -268,7 +268,7 @@ def test_meshes_that_arrive_late_dress_the_open_tab_and_its_ghosts(page, say):
     white = (1.0, 1.0, 1.0, 1.0)
     triangle = Shape("link1", white, np.eye(3), np.array([[0, 1, 2]]))
     for _ in range(2):  # the fine ones may be as many as the simple ones
-        on_loop(page.server, lambda: page.dress(page.arm.model, [triangle], True))
+        on_loop(page.server, lambda: page.dress(page.arm.model, [triangle], [triangle]))
     assert page.tab is noisy
     assert set(page.widgets()) == before
     assert len(noisy.ghost.meshes) == 1
@@ -342,7 +342,7 @@ def test_a_tab_that_fails_says_so_and_the_page_goes_on(page, say):
 def test_the_chain_shows_one_factor_per_link_and_one_per_joint(page, say):
     say(tab("Chain"))
     assert len(page.arm.steps()) == 16
-    say((page.tab.buttons, "next"))
+    say((page.tab.widgets["does"], "next"))
     assert "factor 4 of 16, T_link1_link2" in contents(page)
     assert "T_world_ee, MuJoCo" not in contents(page)  # the tab needs the room
     say(tab("Joints"))

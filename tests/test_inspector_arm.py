@@ -196,3 +196,16 @@ def test_planes_and_hidden_groups_are_left_out_and_every_primitive_has_its_size(
     assert made.keys() == expected.keys()
     for body, (low, high) in expected.items():
         np.testing.assert_allclose(made[body], (low, high), atol=1e-3)
+
+
+def test_a_hand_stays_on_the_last_link_of_a_ghost():
+    model = panda.load("panda")
+    arm = Arm(model, panda.END_FRAME["panda"])
+    there = arm.poses_at(panda.home_q(model) + 0.1 * np.eye(model.nq)[0])
+    links = {f"link{i}": there[f"link{i}"] for i in range(8)}
+    carried = arm.carried(links)
+    assert {"hand", "left_finger", "right_finger"} <= set(carried)
+    np.testing.assert_allclose(carried["left_finger"], there["left_finger"], atol=1e-12)
+    np.testing.assert_allclose(carried["link3"], there["link3"], atol=1e-12)
+    del links["link7"]  # no answer for it: nothing is known of the hand either
+    assert arm.carried(links) == links

@@ -59,7 +59,7 @@ def test_a_number_that_hangs_on_the_processor_is_found_and_named(
     code = "import os\ndef test_a(): assert os.environ['OPENBLAS_CORETYPE'] != 'Zen'\n"
     (tmp_path / "test_a_number.py").write_text(code)
     monkeypatch.setattr(kernels, "tests", lambda: [tmp_path])
-    monkeypatch.setattr(kernels, "taken", lambda kernel: kernel)
+    monkeypatch.setattr(kernels, "kernel_used", lambda kernel: kernel)
     monkeypatch.setattr(sys, "argv", ["kernels", "Haswell", "Zen"])
     monkeypatch.setattr(kernels, "DOCUMENTS", str(tmp_path))
     assert kernels.main() == 1
@@ -74,7 +74,7 @@ def test_what_openblas_does_not_take_and_what_ran_already_are_left_out(
 ):
     own = {"": "Haswell", "Haswell": "Haswell", "NoSuch": "Haswell"}
     monkeypatch.delenv("OPENBLAS_CORETYPE", raising=False)
-    monkeypatch.setattr(kernels, "taken", own.__getitem__)
+    monkeypatch.setattr(kernels, "kernel_used", own.__getitem__)
     monkeypatch.setattr(sys, "argv", ["kernels", "--others", "NoSuch", "Haswell"])
     assert kernels.main() == 0
     first, second = capsys.readouterr().out.splitlines()

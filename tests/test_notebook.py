@@ -18,15 +18,15 @@ from labkit.handin.deliverables import wanted_names
 from labkit.handin.handin import notebook_name, read_handin
 from labkit.lesson.cells import (
     BEGIN,
-    apart,
     definitions,
     lab_from,
     reverted,
+    split_script,
     text_of,
     with_functions,
 )
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.predicted import predictions
+from labkit.lesson.predictions import predictions
 from labkit.lesson.starter import solution, starter_of
 from labkit.notebook import build, guide, kernel, sync, worksheet
 from robo47.errors import Robo47Error
@@ -70,7 +70,7 @@ def test_every_task_has_its_function_and_its_check_in_the_order_of_the_guide(day
         names = task.functions
         above = sources[check - len(names) : check]
         for name, cell in zip(names, above, strict=True):
-            assert cell == guide.typed(text_of(starter, name))
+            assert cell == guide.with_notebook_commands(text_of(starter, name))
         assert check < sources.index("run()"), f"{task.id} comes after the run"
     steps = [
         int(found[1])
@@ -122,7 +122,7 @@ def test_where_a_guide_asks_for_all_predictions_at_once_their_cells_are_there():
 def test_a_command_for_a_terminal_is_that_of_a_cell_if_a_cell_does_the_same(
     shell, cell
 ):
-    assert guide.typed(shell) == cell
+    assert guide.with_notebook_commands(shell) == cell
 
 
 def test_a_fenced_text_for_a_terminal_can_be_copied_into_a_cell():
@@ -171,7 +171,7 @@ def test_a_function_brings_the_helpers_imports_and_constants_that_it_uses():
     cells = definitions([OTHERS, HELPER, "%pip list\n!ls\nprint(1)", RZ])
     made = with_functions(starter_of(DAY), cells, ["Rz"])
     assert text_of(made, "Rz") == RZ.strip()
-    assert set(apart(made)[1]) == {"math", "EPS", "turned"}
+    assert set(split_script(made)[1]) == {"math", "EPS", "turned"}
     assert made.index("import math") < made.index("def turned") < made.index("def Rz")
     again = with_functions(
         made, definitions([HELPER.replace("cos", "sin"), RZ]), ["Rz"]
@@ -223,7 +223,7 @@ def test_an_edit_of_the_file_alone_counts_and_is_told(day):
     in_file(day, 5)
     told = bring(day, 1)
     assert told.newer == ["Rz"]
-    assert "newer than the cell" in told.told(day)[0]
+    assert "newer than the cell" in told.sentences(day)[0]
     assert body_of(day) == "5"
     assert bring(day, 1, keep="notebook").written == ["Rz"]
     assert body_of(day) == "1"
@@ -439,11 +439,11 @@ def test_a_fault_of_a_students_function_in_a_picture_is_one_line(day, monkeypatc
 def test_a_step_that_the_lab_does_not_reach_shows_where_it_stopped():
     first = "Predict first: 3 are missing.\nrobot: Panda\n\n1. One\n  a (hidden)\n\n"
     printed = first + "2. Two\nto do: task 1.6: write f\n"
-    told = kernel._shown(printed, 3)
+    told = kernel._step_output(printed, 3)
     assert told.startswith("The lab stopped before step 3.")
     assert "task 1.6" in told
     assert "One" not in told
-    assert kernel._shown(printed, 1).startswith(
+    assert kernel._step_output(printed, 1).startswith(
         "Predict first: 3 are missing.\n\n1. One"
     )
 

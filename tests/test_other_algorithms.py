@@ -71,7 +71,7 @@ def test_a_function_that_only_counts_the_pairs_of_a_path_is_named():
         given = PATH[: len(path)]
         return right(1, "compose_fk")(model, q, given)
 
-    assert "only counts the pairs" in told(1, "1.6", compose_fk=compose_fk)
+    assert "only the number of pairs" in told(1, "1.6", compose_fk=compose_fk)
 
 
 def test_one_mistake_in_another_form_is_not_told_as_two():

@@ -78,7 +78,7 @@ class TestSizes:
         ask = self.row(Scalar(), np.sum)
         assert judged(ask, right(ask)[0]).status == "passed"
         wrong = judged(ask, right(ask)[0] * [1, 2, 1, 1])
-        assert "right for 3 of 4 inputs" in wrong.message
+        assert "wrong in 1 of 4 calls" in wrong.message
 
     def test_an_answer_as_long_as_its_question(self):
         ask = self.row(Vector((None,)), np.cumsum)
@@ -92,7 +92,7 @@ class TestSizes:
         assert verdict(lambda x: -np.cumsum(x)).mistake == "all-signs"
         short = verdict(lambda x: np.cumsum(x)[:-1])
         assert short.mistake == "shape"
-        assert "shape (1,); expected shape (2,), in call 1 of 4" in short.message
+        assert "returns a wrong shape in 4 of 4 calls." in short.message
         assert verdict(lambda x: np.cumsum(x)[None]).mistake == "shape"
 
     def test_a_mistake_is_made_again_in_every_size(self):
@@ -155,7 +155,7 @@ COUNTS = np.array([62, 43, 10, 7])
         (
             [61, 43, 10, 7],
             "miscounted",
-            "returned 61; expected 62. The result is right for 3 of",
+            "returned 61; expected 62. The result is wrong in 1 of",
         ),
         (COUNTS - 0.5, "not-whole", "returned 61.5; expected a whole number"),
         (-COUNTS, "miscounted", "-62; expected 62"),  # no talk of signs
@@ -177,7 +177,7 @@ ONE_EACH = np.arange(8) == np.arange(6)[:, None]
     [
         (MASKS, "", ""),
         (MASKS.astype(int), "", ""),
-        (~MASKS, "inverted", "True and False are swapped"),
+        (~MASKS, "inverted", "our code swaps True and False"),
         (np.ones_like(MASKS), "ignores-its-input", "does not depend on the input"),
         (MASKS | ONE_EACH, "too-often-true", "returned True in 3 cases where"),
         (MASKS & ~ONE_EACH, "too-seldom-true", "Your function returned False"),
@@ -226,7 +226,7 @@ def test_a_path_of_any_length_is_accepted_by_a_property():
     assert straight.status == "passed"
     back = verdict(lambda i, a, b: np.linspace(b, a, 3 + i))
     assert back.mistake == "not-accepted"
-    assert "For 6 of 6 inputs" in back.message
+    assert "This happens for 6 of 6 inputs" in back.message
     flat = verdict(lambda i, a, b: np.concatenate([a, b]))
     assert "a row of 2 numbers per waypoint" in flat.message
 
@@ -245,7 +245,7 @@ def test_pixels_of_several_sizes_may_be_shifted_too():
     ("change", "slug", "says"),
     [
         (lambda p: p + 0.5, "shifted", "off by the same (0.5, 0.5)"),
-        (lambda p: p[..., ::-1], "row-first", "The row comes first"),
+        (lambda p: p[..., ::-1], "row-first", "Your code puts the row first"),
         (lambda p: 2.0 * p, "one-factor-off", "2 times"),
         (np.trunc, "whole-numbers", "truncated to whole numbers"),
     ],

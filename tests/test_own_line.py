@@ -112,14 +112,14 @@ def closest_points_segments(a0, a1, b0, b1):
         (
             "(bb * s + ff) / ee",
             "(bb * s + ff) / aa",
-            "`t = np.clip((bb * s + ff) / aa, 0, 1) if ee > 0 else 0.0`: `aa` "
-            "(squared length of the first segment) is used in the place of another "
-            "value (squared length of the second segment)",
+            "`t = np.clip((bb * s + ff) / aa, 0, 1) if ee > 0 else 0.0`, `aa` "
+            "(squared length of the first segment) is used where another value "
+            "(squared length of the second segment) belongs",
         ),
         (
             "(bb * s + ff) / ee",
             "(bb * s - ff) / ee",
-            "`t = np.clip((bb * s - ff) / ee, 0, 1) if ee > 0 else 0.0`: the sign of "
+            "`t = np.clip((bb * s - ff) / ee, 0, 1) if ee > 0 else 0.0`, the sign of "
             "`ff` is reversed",
         ),
     ],
@@ -129,7 +129,7 @@ def test_a_mutant_is_told_by_the_students_line(student, right, wrong, says):
     own = SEGMENTS.replace(right, wrong)
     message = told(11, "11.1", "closest_points_segments", student, own)
     assert says in message
-    assert "Line " in message
+    assert "n line " in message
 
 
 @pytest.mark.kit

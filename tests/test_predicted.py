@@ -6,8 +6,8 @@ import pytest
 
 from conftest import ROOT, copy_kit, keep_first_day, kits_worksheet, run_copy
 from labkit.lesson.day import all_days, find_day
-from labkit.lesson.hidden import Hidden, Output, without
-from labkit.lesson.predicted import predictions, rows_asked, with_measured
+from labkit.lesson.hidden_numbers import HiddenNumber, Output, without
+from labkit.lesson.predictions import predictions, rows_asked, with_measured
 
 HEAD = "| number | predicted | measured | why apart |\n|---|---|---|---|\n"
 OPEN = "*(your number)*"
@@ -82,7 +82,7 @@ SAYS = "  height of ee, m: hidden until you write 0.5903"
 
 def test_a_number_is_hidden_wherever_it_is_printed():
     at = OUTPUT.index("2. Order")
-    hidden = [Hidden(5.0, at), Hidden(0.59027, at), Hidden(0.25, at)]
+    hidden = [HiddenNumber(5.0, at), HiddenNumber(0.59027, at), HiddenNumber(0.25, at)]
     lines = without(OUTPUT, hidden, {SAYS}).splitlines()
     before = OUTPUT.splitlines()
     assert lines[:2] == before[:2]  # a short number before the step that measures it
@@ -98,7 +98,7 @@ def test_a_number_is_hidden_wherever_it_is_printed():
 
 def test_a_zero_is_hidden_in_its_step_and_one_digit_is_no_fraction():
     text = "1. a\n  0.0 and 1 of 2\n2. b\n  0.0  0.9703  1  2\n"
-    hidden = [Hidden(0.0, 0), Hidden(0.9703, text.index("2. b") + 1)]
+    hidden = [HiddenNumber(0.0, 0), HiddenNumber(0.9703, text.index("2. b") + 1)]
     assert without(text, hidden).splitlines()[1::2] == [
         "  (hidden) and 1 of 2",
         "  0.0 (hidden)  1  2",
@@ -140,6 +140,7 @@ ANSWERS = {
     12: ("0.940", "0.813", "0.703"),
     13: ("135.1", "0.9615", "12.92"),
     14: ("122 g", "0.32", "384"),
+    15: ("130.6", "1.409"),
 }
 
 

@@ -13,8 +13,8 @@ from labkit.lesson.day import find_day
 from labkit.proof import page as proof_page
 from labkit.proof.facts import facts_of
 from labkit.report import page as report_page
-from labkit.report.foreseen import compared, value_of
 from labkit.report.prediction_plot import draw
+from labkit.report.prediction_values import compared, value_of
 from labkit.report.series import collect, series_of
 from labkit.sandbox.sandbox import Sandbox
 

@@ -1,5 +1,6 @@
 """The report: every number right, every text harmless, good on a phone."""
 
+import dataclasses
 import html
 import re
 import subprocess
@@ -10,13 +11,15 @@ from xml.etree import ElementTree
 import pytest
 
 from conftest import ROOT, need
+from labkit.check.memory import Entry
 from labkit.lesson.day import all_days, find_day
 from labkit.lesson.metric import Metric
 from labkit.log.rows import HEADER as LINE
-from labkit.log.rows import encode, typed
+from labkit.log.rows import checked_row, encode
 from labkit.log.scan import scan
-from labkit.report import page, plot
+from labkit.report import overview, page, plot
 from labkit.report.series import Report, Series, collect, series_of
+from labkit.report.week_facts import OwnDay
 
 pytestmark = pytest.mark.kit
 
@@ -26,7 +29,7 @@ EVIL = "<script>document.title='owned'</script><img src=x onerror=alert(1)>"
 
 def line(**fields: object) -> str:
     base = {"date": "2026-09-01", "day": 1, "check": "fk", "metric": "err"}
-    return encode(typed(base | {"git_sha": "abc1234"} | fields, True)[0])
+    return encode(checked_row(base | {"git_sha": "abc1234"} | fields, True)[0])
 
 
 @pytest.fixture
@@ -48,7 +51,9 @@ def run(run):
 def of_values(metric: str, *values: float, limit: Metric | None = None) -> Series:
     """Return a series of these values."""
     series = Series(1, limit or Metric("c", metric))
-    series.rows = [typed({"value": v, "git_sha": "abc1234"}, False)[0] for v in values]
+    series.rows = [
+        checked_row({"value": v, "git_sha": "abc1234"}, False)[0] for v in values
+    ]
     return series
 
 
@@ -246,6 +251,71 @@ def test_a_long_series_keeps_its_extremes_and_its_latest_run():
     for value in (0.5, 1e-30):
         assert any(tip.startswith(repr(value)) for tip in tips)
     assert tips[-1].startswith("2e-15")
+
+
+@pytest.mark.parametrize(
+    ("limit", "value", "decades"),
+    [
+        ({"max": 1e-8}, 1e-11, 3),
+        ({"max": 1e-8}, 1e-7, -1),
+        ({"max": 20.0}, 0.0, overview.MOST),
+        ({"min": 0.1}, 10.0, 2),
+        ({"min": 0.1, "max": 1000.0}, 10.0, 2),  # the nearer limit counts
+        ({"max": 0.0}, -1.0, None),
+        ({"max": 1.0}, float("nan"), None),
+        ({"max": 1.0}, None, None),
+        ({}, 1.0, None),
+    ],
+)
+def test_a_margin_is_the_factor_between_number_and_limit_in_decades(
+    limit, value, decades
+):
+    series = of_values("m", limit=Metric("c", "m", **limit))
+    found = overview.margin(series, value)
+    assert found == (decades if decades is None else pytest.approx(decades))
+
+
+def test_a_bar_begins_at_the_limit_and_goes_left_where_a_number_fails():
+    limit = Metric("c", "m", max=1e-3, says="largest error <m>")
+    good, bad = (of_values("m", value, limit=limit) for value in (1e-6, 1e-1))
+    bars = [overview.Bar(one, one.latest, one.status) for one in (good, bad)]
+    picture = re.search("<svg.*</svg>", overview.margins(bars))[0]
+    (line,) = [p for p in ElementTree.fromstring(picture).iter("path")
+               if p.get("stroke") == "var(--limit)"]  # fmt: skip
+    at_limit = float(re.match(r"M([\d.]+)", line.get("d"))[1])
+    first, second = ElementTree.fromstring(picture).iter("rect")
+    assert float(first.get("x")) == pytest.approx(at_limit)
+    right = float(second.get("x")) + float(second.get("width"))
+    assert right == pytest.approx(at_limit)
+    assert "largest error <m>" in first.find("title").text
+    assert "1 of 2 numbers are inside their limits." in picture
+    assert overview.margins([overview.Bar(of_values("m", 1.0), 1.0, "open")]) == ""
+
+
+def test_a_day_has_a_square_a_task_and_a_dot_an_attempt(tmp_path):
+    day = dataclasses.replace(find_day(1), folder=tmp_path)
+    (tmp_path / "work").mkdir()
+    ids = [task.id for task in day.tasks]
+    states = {ids[0]: "passed", ids[1]: "wrong"}
+    own = OwnDay(day, states, [], hints=3)
+    entries = [Entry(ids[0], "wrong", "x", EVIL), Entry(ids[0], "passed", "")]
+    assert overview.days_table([own], entries) == ""  # it is not begun
+    day.work.write_text("")
+    table = overview.days_table([own], entries)
+    squares, attempts = (
+        re.findall(r'<i class="(\w*)"', part) for part in table.split("class=attempts")
+    )
+    assert squares == ["pass", "fail", *[""] * (len(ids) - 2)]
+    assert attempts == ["fail", "pass"]
+    assert "<td>3</td>" in table
+    assert "<script" not in table
+
+
+def test_plots_are_folded_unless_a_number_fails(log):
+    good = page.render(report_on(log, line(value=1e-9)), "")
+    bad = page.render(report_on(log, line(value=1)), "")
+    assert "<details><summary>Every run of 1 number</summary>" in good
+    assert "<details open><summary>Every run of 1 number</summary>" in bad
 
 
 def test_each_point_names_its_commit(log):

@@ -96,14 +96,14 @@ def test_a_square_too_many_shows_when_the_argument_is_doubled():
         lambda m, a: m * m * a, lambda m, a: m * a, PUSHES, ["m", "a"]
     )
     assert says == (
-        "If m is doubled, your answer becomes 4 times as large; the right answer, 2 "
-        "times."
+        "If m is doubled, your result becomes 4 times as large, but it should become 2 "
+        "times as large."
     )
 
 
 def test_an_argument_that_is_not_used_is_named():
     says = told_of_doubling(lambda m, a: m, lambda m, a: m + a**2, PUSHES, ["m", "a"])
-    assert says == "If a is doubled, your answer stays the same, but it should change."
+    assert says == "If a is doubled, your result stays the same, but it should change."
 
 
 def test_an_answer_that_grows_as_the_right_one_says_nothing():
@@ -117,7 +117,7 @@ def test_a_rotation_is_not_doubled():
     calls = [(se3.Rz(x), np.ones(3)) for x in (0.3, 0.7, 1.1)]
     ones, right = lambda R, v: np.ones(3), lambda R, v: R @ v
     says = told_of_doubling(ones, right, calls, ["R", "v"])
-    assert says == "If v is doubled, your answer stays the same, but it should change."
+    assert says == "If v is doubled, your result stays the same, but it should change."
 
 
 def test_answers_of_unlike_length_are_no_reason_to_stop():

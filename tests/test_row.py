@@ -5,7 +5,6 @@ import pytest
 
 from labkit.judge import Ask, Draw, HeldOut, Scalar
 from labkit.judge import argument_mistakes as kinds
-from labkit.judge.mistake import REDONE
 from labkit.judge.row import Row, inside
 from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
@@ -18,7 +17,7 @@ def row_of_two(answers):
     @row.wrongs
     def _(x):
         """doubled: it is there
-          twice => 2 x
+          twice => both
         negative: its sign is wrong
         """
         return answers(x)
@@ -26,11 +25,11 @@ def row_of_two(answers):
     return row
 
 
-def test_each_mistake_of_a_function_is_a_way_with_its_sentence_and_its_answer():
+def test_each_mistake_of_a_function_is_a_way_with_its_sentence():
     row = row_of_two(lambda x: {"doubled": 2 * x, "negative": lambda: -x})
     doubled, negative = row.named
     assert (doubled.slug, doubled.says) == ("doubled", "it is there twice")
-    assert (doubled.redone, negative.redone) == ("2 x", REDONE)
+    assert (doubled.both, negative.both) == (True, False)
     assert (doubled.code(3), negative.code(3)) == (6, -3)
 
 
@@ -45,18 +44,17 @@ def test_an_answer_without_a_sentence_is_found_and_a_sentence_without_an_answer(
             row_of_two(lambda x, answers=answers: answers).named[0].code(3)
 
 
-def test_a_table_says_once_what_to_call_its_answers_and_what_the_lab_cannot_show():
+def test_a_table_says_what_the_lab_cannot_show():
     row = Row(Scalar())
 
-    @row.wrongs(redone="that number", hidden={"negative": "x is positive there"})
+    @row.wrongs(hidden={"negative": "x is positive there"})
     def _(x):
-        """doubled: it is there twice => 2 x
+        """doubled: it is there twice
         negative: its sign is wrong
         """
         return {"doubled": 2 * x, "negative": -x}
 
     doubled, negative = row.named
-    assert (doubled.redone, negative.redone) == ("2 x", "that number")
     assert (doubled.hidden, negative.hidden) == ("", "x is positive there")
 
 

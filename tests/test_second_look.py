@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from labkit.check import lab_run
-from labkit.check.lab_run import Budget, EnoughAsked, behind_wall, rehearse
+from labkit.check.lab_run import Budget, TimeUsedUp, behind_wall, rehearse
 from labkit.check.tasks import check_tasks
 from labkit.judge import Robot
 from labkit.lesson import borrowed
@@ -149,7 +149,7 @@ class TestTheLabWithAFilesFunctions:
             own = behind_wall(DAY, DAY.source, sandbox, lab, Budget(60.0))
             return own["compose_fk"](arm.model, data.qpos.copy(), path)[:3, 3]
 
-        with pytest.raises(EnoughAsked):  # it has the Panda's seven joints
+        with pytest.raises(TimeUsedUp):  # it has the Panda's seven joints
             end()
         monkeypatch.setattr(lab_run, "rows_of", lambda day: {"compose_fk": row})
         np.testing.assert_allclose(end(), data.xpos[-1], atol=1e-12)

@@ -146,8 +146,7 @@ def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
         return T
 
     says = told(2, "2.4", exp_screw=exp_screw)
-    assert "One sign is reversed: your output equals" in says
-    assert "with `(theta + s) * K @ K`, or with" in says
+    assert "One sign is reversed, as in `(theta + s) * K @ K` or `" in says
     assert "gives the same output" in says
 
 
@@ -223,6 +222,18 @@ def test_a_condition_is_wrong_only_in_a_function_that_compares_something(line, m
     assert all(has_its_kind(m, one) is may for one in some)
 
 
+def judged(number, task, function):
+    """Return the verdict on a file that has this function alone, as it stands here."""
+    asked = asked_of(
+        task, name := function.__name__, row_of(find_day(number), name).ask, 47
+    )
+    for one in asked.exchanges:
+        value = function(*one.question.args)
+        one.reply = Reply(value=value, again=value)
+    names = tuple(inspect.signature(function).parameters)
+    return judge(asked, textwrap.dedent(inspect.getsource(function)), names)
+
+
 def test_a_gain_of_another_root_formula_is_not_called_a_wrong_condition(monkeypatch):
     row = row_of(find_day(9), "delay_margin")
     monkeypatch.setitem(vars(row), "ask", replace(row.ask, mistakes=()))
@@ -231,14 +242,28 @@ def test_a_gain_of_another_root_formula_is_not_called_a_wrong_condition(monkeypa
         w = np.sqrt(kd**2 + np.sqrt(kd**4 + kp**2))
         return np.arctan2(kd * w, kp) / w
 
-    source = inspect.getsource(delay_margin)
-    asked = asked_of("9.2", "delay_margin", row.ask, 47)
-    for one in asked.exchanges:
-        value = delay_margin(*one.question.args)
-        one.reply = Reply(value=value, again=value)
-    verdict = judge(asked, textwrap.dedent(source), ("kp", "kd"))
+    verdict = judged(9, "9.2", delay_margin)
     assert verdict.status == "wrong"
     assert "condition" not in verdict.message
+
+
+def test_a_change_that_no_line_of_the_file_has_is_told_of_the_correct_formula():
+    skew, spatial_inertia = right(2, "skew"), right(4, "spatial_inertia")
+
+    def link_inertias(T_links, masses, coms, inertias):
+        found = []
+        for T, *numbers in zip(T_links, masses, coms, inertias, strict=True):
+            R, p = T[:3, :3], T[:3, 3]
+            X = np.zeros((6, 6))
+            X[:3, :3] = X[3:, 3:] = R.T
+            X[3:, :3] = -skew(p) @ R.T  # right is R.T @ skew(p)
+            found.append(X.T @ spatial_inertia(*numbers) @ X)
+        return np.array(found)
+
+    says = judged(4, "4.2", link_inertias).message
+    assert says.startswith(
+        "Your output equals the correct formula with one change: a bracket "
+    )
 
 
 def test_a_product_in_the_wrong_order_may_lack_a_transpose():

@@ -12,7 +12,7 @@ from labkit.base import processes
 from labkit.base.exchange import Question, Reply
 from labkit.check import lab_run, slow
 from labkit.check.report import Report, as_text
-from labkit.check.slow import Budget, EnoughAsked, too_slow
+from labkit.check.slow import Budget, TimeUsedUp, too_slow
 from labkit.check.tasks import TaskResult
 from labkit.grade import child
 from labkit.handin.handin import Item
@@ -169,13 +169,13 @@ class TestALabsRun:
         assert self.run(100_000, 1e-6, 0.0).calls["f"] == 100_000
 
     def test_ends_where_the_students_functions_are_slow(self):
-        with pytest.raises(EnoughAsked):
+        with pytest.raises(TimeUsedUp):
             self.run(200, 0.2, 0.0, seconds=1e-9)
         budget = Budget(10.0, clock=self.clock)
         budget.watch(SimpleNamespace(used=lambda: (9.0, 0.0), ask=len))
         budget.spend("f", (1.0,))
         self.clock.now += 11.0
-        with pytest.raises(EnoughAsked):
+        with pytest.raises(TimeUsedUp):
             budget.spend("f", (1.0,))
         says = slow.not_to_its_end("3. Train", budget)
         assert "10 s went by, with 1 call of your functions; the kit's" in says
@@ -184,7 +184,7 @@ class TestALabsRun:
     def test_goes_on_where_the_kits_own_would_take_as_long(self):
         budget = self.run(150, 0.1, 0.0)  # 15 s, of which the process worked for none
         assert budget.seconds == 30.0
-        with pytest.raises(EnoughAsked):
+        with pytest.raises(TimeUsedUp):
             self.run(400, 0.1, 0.0)
 
     def test_is_not_charged_what_it_waits_for_a_processor(self):
@@ -198,7 +198,7 @@ class TestALabsRun:
         self, monkeypatch, tmp_path
     ):
         words = "The lab was not run to its end: 30 s went by."
-        ran = lab_run.Rehearsed("", {}, words)
+        ran = lab_run.LabRun("", {}, words)
         monkeypatch.setattr(lab_run, "rehearse", lambda *_: ran)
         (item,) = lab_run.check_lab(DAY, DAY.source, None)
         done = [TaskResult(task, Verdict("passed")) for task in DAY.tasks]

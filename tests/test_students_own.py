@@ -7,7 +7,7 @@ import pytest
 
 from conftest import ROOT
 from labkit.lesson.day import find_day
-from labkit.lesson.students_own import is_made, is_students, retrospectives
+from labkit.lesson.student_files import is_made, is_students, retrospectives
 from labkit.lesson.week import find_week
 
 W1 = find_week(1).folder.name
@@ -37,7 +37,7 @@ def test_the_retrospectives_of_another_clone_are_found_there(tmp_path):
 
 def test_no_other_module_has_a_pattern_of_these_files():
     pattern = re.compile(r"RETRO_.?\*|/(work|notebooks)/\*|\(work\|")
-    known = {"week.py", "students_own.py"}
+    known = {"week.py", "student_files.py"}
     found = []
     for path in (ROOT / "labkit").rglob("*.py"):
         with tokenize.open(path) as file:

@@ -69,7 +69,7 @@ def test_a_chain_that_ignores_its_path_is_told_in_its_own_task(check):
     code = REFERENCE.replace("for name, joint in path:", "for name, joint in PATH:", 1)
     verdicts = check(code)
     assert verdicts["1.6"].mistake == "path-ignored"
-    assert "ignores path" in verdicts["1.6"].message
+    assert "ignores `path`" in verdicts["1.6"].message
     assert verdicts["1.8"].follows == "1.6"
 
 

@@ -14,7 +14,7 @@ from test_report import MEASURE, dom
 
 from conftest import copy_kit, keep_first_day, run_copy
 from labkit.base import store
-from labkit.check.memory import Met
+from labkit.check.memory import MetMistake
 from labkit.commands.week import lines_of
 from labkit.lesson.day import days_of, find_day
 from labkit.lesson.metric import Metric
@@ -23,7 +23,7 @@ from labkit.lesson.writers import Writers, file_mark, marks_of, writers_of
 from labkit.report import week_page, week_retro
 from labkit.report.series import Series
 from labkit.report.week_facts import OwnDay, facts_of, minutes_of
-from labkit.report.week_labs import Ran
+from labkit.report.week_labs import LabResult
 
 pytestmark = pytest.mark.kit
 
@@ -126,8 +126,8 @@ def ran(metric, kit=2e-15):
 def facts(day, **changed):
     number = ran(SMALL)
     met = [
-        Met("1.3", "t-negated", "left behind", "It keeps t."),
-        Met("1.8", "chain-reversed", "still there"),
+        MetMistake("1.3", "t-negated", "left behind", "It keeps t."),
+        MetMistake("1.8", "chain-reversed", "still there"),
     ]
     passed = {task.id: "passed" for task in day.tasks[:-1]}
     return replace(OwnDay(day, passed, [number], 200, 4, met), **changed)
@@ -304,7 +304,7 @@ def test_the_kits_numbers_have_a_column_where_the_kit_has_run_here(day):
 def test_no_text_of_a_journal_becomes_a_script(day):
     evil = "<script>alert(1)</script>"
     text = week_page.render(
-        [facts(day, met=[Met("1.1", evil, "still there", evil)])], evil
+        [facts(day, met=[MetMistake("1.1", evil, "still there", evil)])], evil
     )
     assert "<script" not in text
     assert "default-src 'none'" in text
@@ -460,7 +460,7 @@ def test_borrowed_functions_are_told_everywhere_and_pass_nowhere(
     for page in ("report.html", "report-week1.html"):
         assert "partly borrowed" in (clone / "metrics" / page).read_text("utf-8")
     assert b"Borrowed from the kit, and not counted: 1.1." in diary.read_bytes()
-    (line,) = lines_of(Ran(begun, True, [ran(SMALL)], ""))
+    (line,) = lines_of(LabResult(begun, True, [ran(SMALL)], ""))
     assert line[:3] == ("1", "part kit's", "fk")
 
 

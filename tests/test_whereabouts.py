@@ -9,7 +9,7 @@ from make_class import DAY, KIT, SOLVED, STARTER, WEEK
 
 from conftest import run_copy
 from labkit.grade import child
-from labkit.grade.course import Graded
+from labkit.grade.course import GradedStudent
 from labkit.grade.package import collect
 from labkit.grade.roster import Student
 from labkit.handin.deliverables import check_deliverables
@@ -149,7 +149,7 @@ def test_a_grade_says_where_the_work_is_and_never_that_it_was_not_started(
     assert f"{SCRIPT} is not there. " in found.error or situation is by_a_wrong_clock
     assert SITUATIONS[situation] in found.error
     assert "make start" not in found.error or situation is as_a_notebook
-    assert Graded(student, found).state == "elsewhere"
+    assert GradedStudent(student, found).state == "elsewhere"
     assert not found.first_mistake
 
 
@@ -157,7 +157,7 @@ def test_who_has_begun_nothing_is_told_how_to_begin(ana):
     student = Student("Ana", ana.name, ana)
     found = child.grade(collect(student, DAY), DAY)
     assert found.error == f"{SCRIPT} is not there. Begin with: make start DAY=1"
-    assert Graded(student, found).state == "not started"
+    assert GradedStudent(student, found).state == "not started"
     assert whereabouts(DAY, ana.parent) == ""
 
 

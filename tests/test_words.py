@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from conftest import ROOT
+from labkit.judge.answer_mistakes import GENERAL, OF_A_ROTATION, of_a_pose
 from labkit.judge.answers import as_clause, capitalised
 from labkit.judge.row import rows_of
 from labkit.lesson.day import Day, all_days
@@ -155,6 +156,14 @@ def test_no_text_uses_a_banned_word(end):
 def test_no_sentence_of_a_mistake_uses_a_banned_word():
     days = [day for day in all_days() if not excepted(file_of(day, "any"), "mistake")]
     assert faults(text for day in days for text in mistakes(day)) == []
+
+
+@pytest.mark.kit
+def test_a_mistakes_sentence_is_about_the_students_code():
+    """Without "your", "the ratio is in per cent" reads as what the task asks for."""
+    says = {one.text for day in all_days() for one in mistakes(day) if one.text}
+    says |= {one.says for one in (*GENERAL, *OF_A_ROTATION, *of_a_pose())}
+    assert [text for text in sorted(says) if not re.search(r"\b[Yy]our\b", text)] == []
 
 
 def test_each_kind_of_text_is_read(tmp_path):

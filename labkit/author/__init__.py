@@ -1,13 +1,13 @@
-"""What `make author` looks at: is a day that somebody writes as it must be?
+"""The tests of `make author` for a new day, and other tools of an author.
 
-files       do a day's files fit together: regions, rows, headings, links
-hints       their size, and whether they have the solution
-docstring   what a docstring says: worked cases are run, shapes are compared
+files       consistency of a day's files: regions, rows, headings, links
+hints       their size, and solutions in them
+docstring   worked cases of a docstring are run, and shapes are compared
 by_machine  mistakes of a day that the checker names without their entry
 student     the complete lab as a student's own file: check, grade, proof
-seen        the day's tabs opened, its pictures drawn and compared
-week        what a week's capstone lacks
+display     opens the day's tabs, draws its pictures and compares them
+week        a week's capstone: missing names and functions
 blank       an empty worksheet
-tables      of kinds and limits, for documents
-moved       a day under another number, or in another week
+tables      tables of kinds and limits, for documents
+renumber    gives a day another number, or another week
 """

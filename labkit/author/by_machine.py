@@ -23,7 +23,7 @@ from labkit.judge.row import Row, Way
 from labkit.lesson.day import Day
 from labkit.sandbox.inside import wire
 
-SEED = 47  # of the drawn inputs
+SEED = 47  # the seed of the sampled inputs
 
 
 class Told(NamedTuple):
@@ -33,7 +33,7 @@ class Told(NamedTuple):
     entry: str  # its sentence
     machine: str  # the machine's
     source: str  # "argument", "slip": where the machine's name comes from
-    shown: bool  # whether it shows what is wrong, and not only of which kind it is
+    shown: bool  # the sentence shows the mistake, and not only its kind
 
 
 def told_by_machine(day: Day, row: Row) -> Iterator[Told]:
@@ -41,7 +41,7 @@ def told_by_machine(day: Day, row: Row) -> Iterator[Told]:
     full = row.ask
     general = {one.slug for kind in full.kinds for one in kind.general()}
     ways = [way for way in row.named if not way.reached]
-    bare = _without(full, ())
+    bare = _with_entries(full, ())
     alone = [(way, verdict_on(day, row, way, bare)) for way in ways]
     found = [(way, v) for way, v in alone if _source(v, general)]
     gone = {id(way) for way, _ in found}
@@ -50,7 +50,7 @@ def told_by_machine(day: Day, row: Row) -> Iterator[Told]:
         for way, mistake in zip(row.named, full.named, strict=True)
         if id(way) not in gone
     ]
-    rest = _without(full, kept)
+    rest = _with_entries(full, kept)
     for way, before in found:
         verdict = verdict_on(day, row, way, rest)
         if verdict.mistake == before.mistake:
@@ -59,7 +59,7 @@ def told_by_machine(day: Day, row: Row) -> Iterator[Told]:
             yield Told(way.slug, way.says, verdict.message, source, shown)
 
 
-def _without(ask: Ask, mistakes: Sequence[Any]) -> Ask:
+def _with_entries(ask: Ask, mistakes: Sequence[Any]) -> Ask:
     """Return a row with other entries, and what is known of its costs."""
     found = replace(ask, mistakes=mistakes)
     vars(found).update(cost=ask.cost, labs_cost=ask.labs_cost, bodies=ask.bodies)
@@ -96,7 +96,7 @@ def _reply(code: Callable[..., Any], one: Exchange) -> Reply:
     try:
         with np.errstate(all="ignore"):
             value = wire.unpack_value(wire.pack_value(code(*args)))
-    except Exception as error:  # as a student's may
+    except Exception as error:  # a student's function may raise any error
         return Reply(error=str(error), kind=type(error).__name__)
     return Reply(value=value, again=value)
 

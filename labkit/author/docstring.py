@@ -1,4 +1,4 @@
-"""What a docstring says of its function: worked cases are run, shapes are compared.
+"""Tests of a docstring: its worked cases are run, and its shapes are compared.
 
 A worked case is a call and its answer, anywhere in the docstring:
 
@@ -27,7 +27,7 @@ _NAMES = {"np": np, "True": True, "False": False, "None": None} | {
     name: getattr(np, name) for name in _PLAIN
 }
 FIRST = 3  # questions that a docstring in words may be about
-EXACT = 1e-9  # of a number without decimals, relative
+EXACT = 1e-9  # the relative tolerance of a number without decimals
 
 
 def faults_of(row: Row) -> Iterator[str]:
@@ -41,7 +41,7 @@ def faults_of(row: Row) -> Iterator[str]:
     for call, value in cases(text, row.function):
         try:
             answer = _called(function, call, row.ask.main[0])
-            off = _off(answer, ast.parse(value, mode="eval").body)
+            off = _difference(answer, ast.parse(value, mode="eval").body)
         except Exception as error:
             off = f"{type(error).__name__}: {error}"
         if off:
@@ -63,7 +63,7 @@ def _called(function: Callable[..., Any], call: str, like: Sequence[Any]) -> Any
     given = ast.parse(call, mode="eval").body
     if not isinstance(given, ast.Call):
         raise ValueError("it is no call")
-    args = [_typed(node, one) for node, one in zip(given.args, like, strict=False)]
+    args = [_argument(node, one) for node, one in zip(given.args, like, strict=False)]
     more = map(_value, given.args[len(args) :])
     named = {one.arg: _value(one.value) for one in given.keywords if one.arg}
     return function(*args, *more, **named)
@@ -119,7 +119,7 @@ def cases(text: str, name: str) -> list[tuple[str, str]]:
     """
     found = []
     for begin in re.finditer(rf"\b{name}(?=\()", text):
-        end = _closed(text, begin.end())
+        end = _bracket_end(text, begin.end())
         arrow = re.match(r" *-> *", text[end:])
         if arrow:
             start = end + arrow.end()
@@ -127,7 +127,7 @@ def cases(text: str, name: str) -> list[tuple[str, str]]:
     return found
 
 
-def _closed(text: str, at: int) -> int:
+def _bracket_end(text: str, at: int) -> int:
     """Return where the bracket at `at` is closed, behind it; the end where never."""
     depth = 0
     for i, letter in enumerate(text[at:], at):
@@ -140,7 +140,7 @@ def _closed(text: str, at: int) -> int:
 def _first_value(text: str) -> str:
     """Return the value that a text begins with, up to the sentence's next part."""
     if text[:1] in ("(", "["):
-        return text[: _closed(text, 0)]
+        return text[: _bracket_end(text, 0)]
     found = re.match(r"[^;,:]+?(?=[;,:]|\.(?:\s|$)|$)", text)
     return found[0].strip() if found else text
 
@@ -150,13 +150,13 @@ def _value(node: ast.expr) -> Any:
     return eval(compile(ast.Expression(node), "docstring", "eval"), dict(_NAMES))
 
 
-def _typed(node: ast.expr, like: Any) -> Any:
+def _argument(node: ast.expr, like: Any) -> Any:
     """Return an argument as questions have it: an array where that one is an array."""
     value = _value(node)
     return np.array(value, dtype=like.dtype) if isinstance(like, np.ndarray) else value
 
 
-def _off(answer: Any, wanted: ast.expr) -> str:
+def _difference(answer: Any, wanted: ast.expr) -> str:
     """Return how an answer differs from the one that is typed; "" where it does not."""
     value = _value(wanted)
     several = isinstance(answer, tuple) and isinstance(value, tuple)
@@ -197,20 +197,20 @@ def _decimals(node: ast.expr) -> Any:
 
 def _shapes(text: str, row: Row, function: Callable[..., Any]) -> Iterator[str]:
     """Yield the first shape of a docstring that the row's questions do not have."""
-    told = _told(text, row.arguments)
+    told = _documented_shapes(text, row.arguments)
     for call in row.ask.main if told else ():
         args = [as_plain(arg) for arg in call]
         given = dict(zip(row.arguments, args, strict=False))  # the rest is usual
         known: dict[str, int] = {}
         for name, dims in told:
             value = given[name] if name else function(*args)
-            if why := _unlike(dims, value, known):
+            if why := _shape_fault(dims, value, known):
                 what = name or "what it returns"
                 yield f"the docstring says that {what} is ({dims}); {why}"
                 return
 
 
-def _told(text: str, arguments: Sequence[str]) -> list[tuple[str, str]]:
+def _documented_shapes(text: str, arguments: Sequence[str]) -> list[tuple[str, str]]:
     """Return the shapes that a docstring tells: (argument, or "" of the answer, dims).
 
     Args:
@@ -228,11 +228,11 @@ def _told(text: str, arguments: Sequence[str]) -> list[tuple[str, str]]:
             told.append((found[shape.start()], shape[1]))
         elif shape.end() <= len(first) and text[shape.start() - 2 :][:1] == ",":
             answers.append(("", shape[1]))
-    # Of several it is not told which is whose.
+    # Several answers do not show to which result each belongs.
     return [*told, *answers] if len(answers) == 1 else told
 
 
-def _unlike(dims: str, value: Any, known: dict[str, int]) -> str:
+def _shape_fault(dims: str, value: Any, known: dict[str, int]) -> str:
     """Return why a value has another shape, "" where it has that one, or none.
 
     Args:

@@ -1,4 +1,4 @@
-"""Do a day's files fit together? Regions, rows, headings, links, hints, sections."""
+"""Consistency of a day's files: regions, rows, headings, links, hints, sections."""
 
 import inspect
 import re
@@ -18,7 +18,7 @@ from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import find_regions
 from robo47.paths import ROOT, shown
 
-# What `make new` writes for somebody to write over, by the file's ending.
+# `make new` writes these texts for an author to replace, by the file's ending.
 SKELETON = {
     "day.toml": ("the method of the day, then what its lab shows",),
     "-lab.md": (
@@ -115,7 +115,7 @@ def _functions(day: Day) -> Iterator[str]:
                 f"{name} takes {len(row.arguments)}: {', '.join(row.arguments)}"
             )
             continue
-        if isinstance(row.ask.truth, InTurn):  # which says what does not fit
+        if isinstance(row.ask.truth, InTurn):  # it reports what does not fit
             row.ask.truth(*stacked([Exchange(Question("", name, tuple(first)))]))
         task = next(one for one in day.tasks if name in one.functions)
         for says in row_faults(row.ask, task.seconds / len(task.functions)):

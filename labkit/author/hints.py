@@ -9,7 +9,7 @@ from labkit.lesson.starter import find_regions
 from robo47.paths import shown
 
 HOW_MANY = (2, 3)  # hints of a task
-WORDS = (20, 50)  # of a hint
+WORDS = (20, 50)  # the limits of a hint
 GIVEN_AWAY = (
     7  # tokens of the solution in a row, with an operator or a bracket: a formula
 )

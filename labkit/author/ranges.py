@@ -1,4 +1,4 @@
-"""How small and how large arguments are in the complete lab, and in the questions.
+"""The ranges of arguments in the complete lab, and in the questions.
 
 A guard, a clamp or a tolerance of a student's changes what no question asks. So the
 complete lab is run, and the smallest and the largest of each argument with which it, or
@@ -22,7 +22,7 @@ from labkit.judge.row import ANY_SIZE, Row, rows_of
 from labkit.lesson.day import Day
 from labkit.lesson.lab_module import load_lab
 
-BEYOND = 3.0  # how many times smaller, or larger, the lab's arguments may be
+BEYOND = 3.0  # the lab's arguments may be this many times smaller or larger
 NOISE = 1e-7  # below it a number of a lab is what rounding leaves
 TRIALS = 50  # random inputs of a lab's own comparisons
 Range = tuple[float, float]  # the smallest size that is not 0, and the largest

@@ -22,12 +22,12 @@ from labkit.report.week_labs import run_labs
 from labkit.sandbox.sandbox import Sandbox
 from robo47.paths import shown
 
-# What to do where the lab's own function takes longer than its task has.
+# The remedy if the lab's own function takes longer than its task has.
 TOO_SLOW = (
     " To do: `seconds = 60` of the task in day.toml, or smaller inputs; where the "
     "lab's function is not what takes longest, say Row(..., seconds=...)"
 )
-OWN = b"\n\nA_STUDENT_S_OWN = 1\n"  # or it would be the kit's file, which is not graded
+OWN = b"\n\nA_STUDENT_S_OWN = 1\n"  # the kit's own file would not be graded
 
 
 def check(day: Day, task: str) -> Iterator[str]:
@@ -39,7 +39,7 @@ def check(day: Day, task: str) -> Iterator[str]:
                 if not one.passed:
                     names = " and ".join(one.task.functions)
                     said = one.verdict.status, one.verdict.message
-                    yield _judged("check", names, one.task.id, *said)
+                    yield _fault("check", names, one.task.id, *said)
 
 
 def faults_of(day: Day) -> Iterator[str]:
@@ -59,8 +59,8 @@ def faults_of(day: Day) -> Iterator[str]:
     with tempfile.TemporaryDirectory(prefix="robo47-author-") as folder:
         clone = Path(folder)
         _handed_in(day, clone)
-        told = list(_graded(day, clone))
-        yield from told or _proved(day, clone)
+        told = list(_grading_faults(day, clone))
+        yield from told or _proof_faults(day, clone)
 
 
 def _handed_in(day: Day, clone: Path) -> Path:
@@ -71,13 +71,13 @@ def _handed_in(day: Day, clone: Path) -> Path:
     return script
 
 
-def _graded(day: Day, clone: Path) -> Iterator[str]:
+def _grading_faults(day: Day, clone: Path) -> Iterator[str]:
     """Yield what `make grade` says is wrong, behind the wall."""
     result = grade(collect(Student("the author", clone.name, clone), day), day)
     for mark in result.tasks:
         if not mark.passed:
             names = " and ".join(day.task(mark.id).functions)
-            yield _judged("grade", names, mark.id, mark.status, mark.message)
+            yield _fault("grade", names, mark.id, mark.status, mark.message)
     for item in result.items:
         if item.status == "wrong":
             yield (
@@ -88,12 +88,12 @@ def _graded(day: Day, clone: Path) -> Iterator[str]:
         yield f"make grade cannot look at it: {result.error}"
 
 
-def _judged(command: str, names: str, task: str, status: str, message: str) -> str:
+def _fault(command: str, names: str, task: str, status: str, message: str) -> str:
     says = f"make {command} judges the lab's own {names} ({task}) as {status}: "
     return says + message + (TOO_SLOW if " is too slow: " in message else "")
 
 
-def _proved(day: Day, clone: Path) -> Iterator[str]:
+def _proof_faults(day: Day, clone: Path) -> Iterator[str]:
     """Yield what the teacher's page to show lacks of a complete day."""
     student = Student("the author", clone.name, clone)
     with Sandbox() as sandbox, tempfile.TemporaryDirectory() as folder:

@@ -1,4 +1,4 @@
-"""What documents for authors show of the code: kinds of answers, limits, a capstone.
+"""Tables of documents for authors: kinds of answers, limits, a capstone.
 
 A document asks for one between two comments, and `make docs` writes it:
 

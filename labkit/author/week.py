@@ -1,4 +1,4 @@
-"""What a week's capstone lacks: its words, its functions, one attempt and its film."""
+"""Tests of a week's capstone: its words, its functions, one attempt and its film."""
 
 from collections.abc import Iterator
 from types import ModuleType
@@ -72,10 +72,12 @@ def _attempted(capstone: ModuleType) -> Iterator[str]:
         if not isinstance(capstone.row("one", result), str):
             yield f"{name}: row(name, result) is no text, the line of a table"
         if seed is None:
-            yield from _shown(name, capstone.summary(result), capstone.film(result))
+            yield from _summary_faults(
+                name, capstone.summary(result), capstone.film(result)
+            )
 
 
-def _shown(name: str, told: Any, film: Any) -> Iterator[str]:
+def _summary_faults(name: str, told: Any, film: Any) -> Iterator[str]:
     """Yield what is wrong with what is said of an attempt, and with its film."""
     for found, kind in ((told, Summary), (film, Film)):
         if not isinstance(found, kind):

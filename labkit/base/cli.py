@@ -1,4 +1,4 @@
-"""What every command of the kit does the same way: help, colour, errors, the end."""
+"""The common parts of all commands: help, colour, errors, the exit code."""
 
 from __future__ import annotations  # the doctor runs on old Pythons too
 
@@ -212,11 +212,12 @@ def _code_of(main: Callable[[], int]) -> int:
         print_nowhere()
         code = EXIT_OK
     except OSError as error:  # the machine's no, not a mistake of ours
-        full = error.errno in _FULL and not error.filename  # where we print
+        # An error without a file name comes from the output.
+        full = error.errno in _FULL and not error.filename
         if not full and (error.errno not in _REFUSALS or not error.filename):
             raise
         if full:
-            print_nowhere()  # else Python fails once more at its end
+            print_nowhere()  # Python would raise the error again at exit
         where = "the output" if full else shown(Path(error.filename).absolute())
         complain(f"error: {where}: {error.strerror}. Fix that and run this again.")
         code = EXIT_CANNOT_RUN

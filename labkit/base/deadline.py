@@ -1,4 +1,4 @@
-"""What a submission has left of its seconds: one clock, whoever works for it.
+"""The remaining seconds of a submission: one clock for all processes that work for it.
 
 What this process, or one that it asks, waits for a processor does not count.
 """
@@ -26,9 +26,10 @@ class Deadline:
         self._clock = clock
         self._began = clock()
         self._own = processes.waited()
-        self._waited = 0.0  # by all of us, when last looked
-        self._working: list[Any] = []  # what has `used`
-        self._waits: list[tuple[float, float]] = []  # of each: at first, since then
+        self._waited = 0.0  # the waiting time of all processes at the last look
+        self._working: list[Any] = []  # the objects that have `used`
+        # The waiting time of each process: first, last.
+        self._waits: list[tuple[float, float]] = []
 
     def watch(self, working: Any) -> None:
         """Count what another process waits, too: a `Process`, a `Session`."""
@@ -49,7 +50,7 @@ class Deadline:
 
     @property
     def over(self) -> bool:
-        """Whether nothing is left."""
+        """The time is used up."""
         return self.within(0.0) < 0.0
 
     def _look(self) -> None:

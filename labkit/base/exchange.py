@@ -11,7 +11,7 @@ CHANNEL = "it wrote into the checker's own channel"
 class Question:
     """One call to make."""
 
-    task: str  # whose it is; a task that hangs is not asked again
+    task: str  # the task's id; a task that hangs is not asked again
     function: str  # a name in the student's file
     # Whatever travels (`labkit.sandbox.inside.wire`), a `Robot` or compiled MjModel, a
     # `Path`, a world (`labkit.judge.worlds`), which stays here and is asked.
@@ -30,29 +30,29 @@ class Path:
 
 @dataclass(frozen=True)
 class Reply:
-    """What came of one question, which is asked twice, the second time much later.
+    """The reply to a question, which is asked twice, the second time much later.
 
     All text in it is harmless: see `labkit.base.text.visible`.
     """
 
-    value: Any = None  # as the function returned it: `labkit.sandbox.inside.wire`
+    value: Any = None  # the returned value, encoded by `labkit.sandbox.inside.wire`
     error: str = ""  # "" or what went wrong, in words
     # "" where the function returned; the exception's name where it raised one;
     # "missing", "unsendable", "stopped" (time, memory, ended, channel), or "waits" (not
     # asked: it needs a task that was stopped).
     kind: str = ""
-    line: int | None = None  # of the student's file, or None
+    line: int | None = None  # the line in the student's file, or None
     callers: tuple[int, ...] = ()  # the lines of it that led there, the nearest first
     # Names of the arguments that are no longer what they were.
     changed: tuple[str, ...] = ()
-    refused: tuple[str, ...] = ()  # what the guard refused during the calls
-    printed: str = ""  # what the function printed the first time
+    refused: tuple[str, ...] = ()  # the imports and calls that the guard refused
+    printed: str = ""  # the output of the first call
     again: Any = None  # the value of the second time; None where it was not asked twice
     again_error: str = ""  # "" or what went wrong the second time alone
-    # What the answer shares its memory with: "another answer", or an argument's name.
+    # The answer shares its memory with these: "another answer", or an argument's name.
     shares: tuple[str, ...] = ()
-    # Of one that was stopped as it took too long: the seconds that it was given, how
-    # many calls of its task came back before it, and how long the longest of them took.
+    # The time that a stopped call was given, the number of calls of its task that came
+    # back before it, and the time of the longest of these; seconds.
     given: float = 0.0
     came: int = 0
     longest: float = 0.0

@@ -1,4 +1,4 @@
-"""What git says of a clone, asked without trusting the clone's configuration.
+"""Queries of a clone through git that do not trust the clone's configuration.
 
 A clone that was handed in as an archive brings its own `.git/config`, which can name
 programs to run. So only commands that read objects are used: no index, no filter, no
@@ -28,18 +28,21 @@ from labkit.base import processes
 SECONDS = 20.0
 SHA = 7  # letters, as `git rev-parse --short` prints for a repository of this size
 LARGEST_OBJECT = "100m"  # bytes that git may take at once; a small file can claim more
-MOST_ENTRIES, LARGEST_GIT = 50_000, 1_000_000_000  # of a git folder: files, bytes
+# The limits of a git folder: files, bytes.
+MOST_ENTRIES, LARGEST_GIT = 50_000, 1_000_000_000
 DEEPEST = 100  # folders in each other that a commit may write
-MOST_FILES = 10_000  # of a commit; the kit has 1,400
+MOST_FILES = 10_000  # the limit of a commit; the kit has 1,400 files
 LARGEST_TREE = 200_000_000  # bytes of a commit's files; the kit has 6 MB
 LARGEST_OUTPUT = 20_000_000  # bytes that git may say
 LARGEST_CONFIG = 100_000  # bytes of a repository's configuration
 LARGEST_COMMIT = 100_000  # bytes; git takes two hundred times as much to parse one
-HEAD_OF, LARGEST_NAME = "ref: refs/heads/", 300  # of a HEAD that names a branch
+# The beginning of a HEAD that names a branch.
+HEAD_OF, LARGEST_NAME = "ref: refs/heads/", 300
 YEAR_2100 = 4_102_444_800
-SEEN = "refs/robo47/"  # where heads are kept that a later push took back
+SEEN = "refs/robo47/"  # the refs of heads that a later push took back
 PULLED = f"{SEEN}pulled/"  # heads, each under the teacher's time of the first pull
-_ELSEWHERE = ("commondir", "objects/info/alternates")  # where more objects are
+# Files that name other object stores.
+_ELSEWHERE = ("commondir", "objects/info/alternates")
 
 
 class GitError(Exception):
@@ -54,12 +57,12 @@ class _SlowError(GitError):
 class History:
     """The last commit of a clone."""
 
-    readable: bool  # whether there is a repository that git can read
+    readable: bool  # git can read a repository here
     commit: str = ""  # its hash; "" where there is no commit yet
     # The time that its author gave it, seconds since 1970, or None.
     committed: int | None = None
     author: str = ""  # the name that its author gave; anybody can type any
-    branch: str = ""  # that HEAD names; "" where it names none
+    branch: str = ""  # the branch of HEAD; "" if HEAD names none
     # Hash of each wanted file in it, by path.
     blobs: Mapping[str, str] = field(default_factory=dict)
 
@@ -90,7 +93,7 @@ def read_history(
     """
     git = _repository(clone, own)
     named = _git(git, "cat-file", "--batch-check=%(objectname) %(objectsize)", say=at)
-    if named is None:  # what took all its time is not asked again
+    if named is None:  # a command that used all its time is not repeated
         return History(readable=False)
     commit, _, size = named.strip().partition(" ")
     if not size.isdecimal():
@@ -223,7 +226,7 @@ def files_of(clone: Path, commit: str, *names: str) -> dict[str, tuple[str, int]
     for entry in (listed or "").split("\0")[:-1]:
         facts, _, name = entry.partition("\t")
         mode, kind, blob, size = facts.split()
-        # of a blob that the repository has lost git says "BAD" for its size
+        # Git prints "BAD" as the size of a blob that the repository has lost
         if kind == "blob" and mode.startswith("100") and size.isdecimal():
             found[name] = (blob, int(size))
     return found
@@ -410,7 +413,8 @@ def _is_plain(git: Path) -> bool:
 
 def _environment(**more: str) -> dict[str, str]:
     """Return this process's environment without what points git elsewhere."""
-    login = ("GIT_SSH", "GIT_SSL", "GIT_ASKPASS")  # how the teacher reaches a server
+    # Settings by which a teacher reaches a server.
+    login = ("GIT_SSH", "GIT_SSL", "GIT_ASKPASS")
     kept = {
         name: value
         for name, value in os.environ.items()
@@ -426,7 +430,8 @@ def _git(git: Path | None, *arguments: str, **more: Any) -> Any:
     try:
         done = run(
             *arguments,
-            folder=git if git.is_dir() else git.parent,  # in a worktree it is a file
+            # The .git of a worktree is a file.
+            folder=git if git.is_dir() else git.parent,
             seconds=SECONDS,
             GIT_ALLOC_LIMIT=LARGEST_OBJECT,
             GIT_DIR=str(git),  # none around it, and whoever owns it

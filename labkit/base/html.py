@@ -129,6 +129,7 @@ def card(heading: str, *parts: str) -> str:
     return f'<div class="card"><h3>{heading}</h3>{"".join(parts)}</div>'
 
 
-def folded(summary: str, *parts: str) -> str:
-    """Return what a click unfolds."""
-    return f"<details><summary>{summary}</summary>{''.join(parts)}</details>"
+def folded(summary: str, *parts: str, opened: bool = False) -> str:
+    """Return what a click unfolds; `opened` is for what should be seen at once."""
+    state = " open" if opened else ""
+    return f"<details{state}><summary>{summary}</summary>{''.join(parts)}</details>"

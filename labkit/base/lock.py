@@ -9,7 +9,7 @@ import warnings
 
 PATIENCE_S = 60.0  # a row takes microseconds: whoever holds it longer is stuck
 PAUSE_S = 0.001
-# What a file system without locks answers (NFS without its lock service, some FUSE).
+# The errors of file systems without locks (NFS without its lock service, some FUSE).
 NO_LOCKS = {
     getattr(errno, name, errno.ENOSYS)
     for name in ("ENOLCK", "ENOTSUP", "EOPNOTSUPP", "ENOSYS")

@@ -42,7 +42,7 @@ else:
     import resource
 
 IN_VENV = "Scripts/python.exe" if os.name == "nt" else "bin/python"  # a venv's Python
-END_SECONDS = 5.0  # for a killed process to be gone
+END_SECONDS = 5.0  # the time that a killed process has to end
 # How a process ends that somebody else ended: SIGKILL or SIGTERM, of it or, behind
 # bubblewrap, as that tells it.
 _KILLED = (-9, -15, 128 + 9, 128 + 15)
@@ -85,7 +85,7 @@ class Child:
 
     @property
     def alive(self) -> bool:
-        """Whether it can take another message."""
+        """The process can take another message."""
         return self.process.poll() is None
 
     def last_words(self) -> str:

@@ -1,4 +1,4 @@
-"""What libraries print of their own, sent nowhere: LAPACK tells stdout of every NaN."""
+"""Discards the output of libraries: LAPACK prints a line for every NaN."""
 
 import contextlib
 import os

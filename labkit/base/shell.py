@@ -22,7 +22,7 @@ NAMES = (
     "PYTEST_PLUGINS",
     "PYTEST_ADDOPTS",
 )
-FOUND = "ROBO47_SHELL"  # which of them were set before they were left out
+FOUND = "ROBO47_SHELL"  # the variable that lists the removed ones
 # How an installer reaches its packages is the machine's business; all else is ours.
 _REACHES = re.compile(
     "(PIP|UV)_.*(INDEX|FIND_LINKS|HOST|PROXY|CERT|TLS|KEYRING|HTTP|OFFLINE|CACHE"
@@ -63,7 +63,7 @@ def leave(root):
     main = getattr(sys.modules.get("__main__"), "__file__", None)
     beside = os.path.join(os.path.dirname(os.path.abspath(main or "")), "kit.py")
     if not main or not os.path.isfile(beside) or not foreign(os.environ, root):
-        return  # else it is no script of the kit's that would start again
+        return  # a script of the kit alone can start again
     command = list(getattr(sys, "orig_argv", [""] + sys.argv))  # noqa: RUF005 (old)
     command[0] = sys.executable
     go_on(command, without(os.environ, root))

@@ -15,11 +15,12 @@ import re
 import unicodedata
 from collections.abc import Callable, Mapping
 
-Maker = Callable[[str, str], str]  # from the request and the old content to the new
+# Maps a request and the old content to the new content.
+Maker = Callable[[str, str], str]
 
 LENGTH, LINE = 500, 200  # characters
-_END = "<!-- end -->"  # of a block
-# What a terminal or a page obeys instead of showing it: controls, line and paragraph
+_END = "<!-- end -->"  # the last line of a block
+# A terminal or a page obeys these instead of showing them: controls, line and paragraph
 # separators, and format characters, which include those of the reading direction.
 _OBEYED = {"Cc", "Cf", "Zl", "Zp"}
 
@@ -49,7 +50,7 @@ def visible(text: object, length: int = LENGTH) -> str:
     """
     whole = str(text)
     kept = whole[: 2 * length + 2]
-    plain = kept.isascii() and kept.isprintable()  # as most are
+    plain = kept.isascii() and kept.isprintable()  # most texts are plain
     shown = (kept if plain else "".join(map(_one, kept))).strip()
     if len(shown) <= length and len(whole) <= 2 * length + 2:
         return shown
@@ -79,16 +80,16 @@ def refill(document: str, makers: Mapping[str, Maker]) -> str:
         new = makers[name](request or "", old).replace("\r\n", "\n")
         return opening + new.replace("\n", newline) + closing
 
-    closed, rest = _closed(document)
+    closed, rest = _closed_blocks(document)
     return _pattern(*makers).sub(fresh, closed) + rest
 
 
 def blocks(document: str, name: str) -> list[str]:
     """Return what the blocks of a name hold."""
-    return [found[4] for found in _pattern(name).findall(_closed(document)[0])]
+    return [found[4] for found in _pattern(name).findall(_closed_blocks(document)[0])]
 
 
-def _closed(document: str) -> tuple[str, str]:
+def _closed_blocks(document: str) -> tuple[str, str]:
     """Return a document up to its last end of a block, and the rest.
 
     Each of a thousand openings without an end would be followed to the last line.

@@ -27,9 +27,9 @@ from labkit.base.exchange import Path as Chain
 from labkit.base.exchange import Question
 from labkit.check.slow import (
     Budget,
-    EnoughAsked,
     Functions,
     RunsOn,
+    TimeUsedUp,
     kits_functions,
     not_to_its_end,
     runs_on,
@@ -42,7 +42,7 @@ from labkit.judge.replies_read import no_answer, stops_with
 from labkit.judge.row import rows_of
 from labkit.lesson.added_code import old_names
 from labkit.lesson.day import Day, Limits, Task
-from labkit.lesson.hidden import Output
+from labkit.lesson.hidden_numbers import Output
 from labkit.lesson.lab import Lab, number_of
 from labkit.lesson.lab_module import load_lab
 from labkit.lesson.metric import Metric
@@ -57,7 +57,7 @@ from labkit.sandbox.sandbox import (
 )
 
 ROBOTS = (PANDA, Robot("panda"))  # those that labs hand to a function
-# Of a model, what makes it another robot.
+# A model that differs in one of these fields is another robot.
 MADE_OF = ("body_pos", "body_quat", "body_mass", "jnt_axis", "jnt_pos")
 TRIALS = 15  # random inputs per step: a mistake that shows in a lab shows in these
 
@@ -68,11 +68,11 @@ class FirstFailure(Exception):  # noqa: N818 (it ends a run; nothing went wrong 
 
 @dataclass
 class _Run:
-    """What is kept of a lab's run."""
+    """The record of a lab's run."""
 
     day: Day
     numbers: dict[tuple[str, str], float] = field(default_factory=dict)
-    title: str = ""  # of the step that is being run
+    title: str = ""  # the title of the present step
 
 
 class Rehearsal(Lab):
@@ -110,14 +110,14 @@ class Rehearsal(Lab):
             self._run.numbers[wanted.check, wanted.metric] = value
 
 
-class Rehearsed(NamedTuple):
-    """What came of a lab's run with a file's functions."""
+class LabRun(NamedTuple):
+    """The result of a lab's run with a file's functions."""
 
     fault: str  # the first step that fails, "" where none did
-    # What the steps before it gave, by check and metric, with `TRIALS` random inputs
-    # instead of the lab's own.
+    # The results of the steps before it, by check and metric, with `TRIALS` random
+    # inputs instead of the lab's own.
     numbers: dict[tuple[str, str], float]
-    unfinished: str = ""  # that it was not run to its end, "" where it was
+    unfinished: str = ""  # a sentence if the run was stopped, else ""
 
 
 def check_lab(
@@ -134,7 +134,7 @@ def check_lab(
 
 def rehearse(
     day: Day, script: Path, sandbox: Sandbox, deadline: Deadline | None = None
-) -> Rehearsed:
+) -> LabRun:
     """Run the lab with a file's functions, each behind the sandbox's wall.
 
     Args:
@@ -144,7 +144,7 @@ def rehearse(
         deadline: of the submission, whose tasks were asked; None is one of its own.
     """
     if not day.source.is_file():
-        return Rehearsed("", {})
+        return LabRun("", {})
     lab = load_lab(day.source)
     run = _Run(day)
     whole = deadline or deadline_of(day)
@@ -163,17 +163,17 @@ def rehearse(
         ):
             try:
                 lab.main()
-            except EnoughAsked:
+            except TimeUsedUp:
                 unfinished = not_to_its_end(run.title, budget)
     except RunsOn:
         fault = runs_on(run.title, budget)
     except FirstFailure as failure:
         fault = str(failure)
-    except Exception as error:  # what a wrong number leads to, in the kit's own code
+    except Exception as error:  # a wrong number can cause any error in the kit's code
         fault = f"it stops with {type(error).__name__}: {error}"
     if unfinished and whole.over:
         fault, unfinished = TOO_LONG, ""
-    return Rehearsed(fault, run.numbers, unfinished)
+    return LabRun(fault, run.numbers, unfinished)
 
 
 def behind_wall(
@@ -202,7 +202,7 @@ def behind_wall(
     budget.watch(session)
     kits = cache(kits_functions(day))
     return {
-        name: _asked(session, day, robots, task, getattr(lab, name), budget, kits)
+        name: _query(session, day, robots, task, getattr(lab, name), budget, kits)
         for task in day.tasks
         for name in task.functions
     }
@@ -215,7 +215,7 @@ def _own_robots(day: Day) -> list[Robot]:
     return [robot for robot in found if isinstance(robot.entry, Path)]
 
 
-def _asked(
+def _query(
     session: Session,
     day: Day,
     robots: Iterable[Robot],
@@ -258,13 +258,13 @@ def _sent(arg: Any, robots: Iterable[Robot]) -> Any:
     """Return an argument as questions have it.
 
     Raises:
-        EnoughAsked: a robot that the session was not given.
+        TimeUsedUp: a robot that the session was not given.
     """
     if isinstance(arg, mujoco.MjModel):
         for robot in robots:
             if _same(robot.model, arg):
                 return robot
-        raise EnoughAsked
+        raise TimeUsedUp
     if isinstance(arg, list | tuple) and arg and all(map(_of_a_chain, arg)):
         return Chain(tuple(arg))
     return arg

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from labkit.base import store
 from labkit.lesson.day import Day
-from labkit.lesson.own_files import helpers_of
+from labkit.lesson.untrusted_files import helpers_of
 from robo47.paths import ROOT
 
 if TYPE_CHECKING:
@@ -34,15 +34,15 @@ _NO_MISTAKE |= {"missing", "raise-left-in"}
 
 
 class Entry(NamedTuple):
-    """How a task stood from a moment on."""
+    """The state of a task from a moment on."""
 
     task: str  # its id
-    status: str  # as in a verdict
+    status: str  # the status of a verdict
     mistake: str  # its name, "" where it has none
     says: str = ""  # the first sentence of what the checker said of it
 
 
-class Met(NamedTuple):
+class MetMistake(NamedTuple):
     """A mistake that was made."""
 
     task: str  # its id
@@ -51,10 +51,10 @@ class Met(NamedTuple):
     # file as it is found it, "not checked since" where there was none, "not right yet"
     # where that check found something else.
     now: str
-    says: str = ""  # what the checker said of it when it was met, in a sentence
+    says: str = ""  # the checker's sentence when the student first met it
 
 
-def known(day: Day) -> dict[str, str]:
+def task_states(day: Day) -> dict[str, str]:
     """Return how tasks stand in the file as it is: "passed", "wrong", "to do" ...
 
     Returns:
@@ -62,7 +62,7 @@ def known(day: Day) -> dict[str, str]:
     """
     if not day.work.is_file():
         return {task.id: "not begun" for task in day.tasks}
-    return _of(store.read(STATES), key_of(day))
+    return _entry(store.read(STATES), key_of(day))
 
 
 def passing(day: Day, states: Mapping[str, str]) -> list[str]:
@@ -72,11 +72,11 @@ def passing(day: Day, states: Mapping[str, str]) -> list[str]:
 
 def remember(key: str, results: Sequence["TaskResult"]) -> dict[str, str]:
     """Keep the checker's word on files of a key taken before it; return it, by task."""
-    states = {result.task.id: in_words(result.verdict) for result in results}
+    states = {result.task.id: state_of(result.verdict) for result in results}
     if all(result.verdict.mistake != "stopped" for result in results):
         # a bad moment of this machine is not remembered
         memory = store.read(STATES)
-        before = _of(memory, key)
+        before = _entry(memory, key)
         memory.pop(key, None)
         newest = {**memory, key: {**before, **states}}
         store.write(STATES, dict(list(newest.items())[-KEPT:]))
@@ -98,7 +98,7 @@ def key_of(day: Day) -> str:
     return f"{day.number} {digest.hexdigest()[:16]}"
 
 
-def in_words(verdict: "Verdict") -> str:
+def state_of(verdict: "Verdict") -> str:
     """Return how a task stands by a verdict on it: "passed", "wrong", "to do" ..."""
     if verdict.mistake == "does-not-load":
         return "the file does not load"
@@ -114,7 +114,7 @@ def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:
     for result in results:
         known = last.get(result.task.id)
         verdict = result.verdict
-        # What follows from another task is no mistake of its own.
+        # A failure that follows from another task is no mistake of its own.
         mistake = "" if verdict.follows else verdict.mistake
         says = _sentence(verdict.message) if mistake else ""
         now = Entry(result.task.id, verdict.status, mistake, says)
@@ -134,7 +134,9 @@ def journal(root: Path = ROOT) -> list[Entry]:
     return found
 
 
-def mistakes_met(entries: Iterable[Entry], known: Mapping[str, str]) -> list[Met]:
+def mistakes_met(
+    entries: Iterable[Entry], known: Mapping[str, str]
+) -> list[MetMistake]:
     """Return every named mistake once per task, in the order they were met.
 
     Args:
@@ -158,7 +160,7 @@ def mistakes_met(entries: Iterable[Entry], known: Mapping[str, str]) -> list[Met
                 now = "still there"
             case _:
                 now = "not right yet"
-        found.append(Met(task, slug, now, says))
+        found.append(MetMistake(task, slug, now, says))
     return found
 
 
@@ -172,7 +174,7 @@ def _digest(folder: Path) -> bytes:
     return hashlib.sha256(b"\0".join(path.read_bytes() for path in files)).digest()
 
 
-def _of(memory: dict[str, Any], key: str) -> dict[str, str]:
+def _entry(memory: dict[str, Any], key: str) -> dict[str, str]:
     found = memory.get(key)
     return found if isinstance(found, dict) else {}
 

@@ -24,22 +24,22 @@ from labkit.sandbox.sandbox import Sandbox
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-# What `robo47.attempt` asks of a capstone's module.
+# `robo47.attempt` asks these of a capstone's module.
 ASKED = (
     "NAME", "THING", "GOAL", "USES", "HEAD",
     "library", "attempt", "row", "summary", "film",
 )  # fmt: skip
 
 
-class Counted(NamedTuple):
-    """How many functions are the student's own, and of how many."""
+class OwnCount(NamedTuple):
+    """The number of the student's own functions, and of all functions."""
 
     own: int
     of: int
 
     @property
     def all(self) -> bool:
-        """Whether every function is the student's own."""
+        """Every function is the student's own."""
         return self.own == self.of
 
     def __str__(self) -> str:
@@ -49,7 +49,7 @@ class Counted(NamedTuple):
 
 def counted(
     asked: Mapping[int, Collection[str]], own: Mapping[int, Collection[str]]
-) -> Counted:
+) -> OwnCount:
     """Count the functions that are the student's own: those that pass the check.
 
     The capstone, the proof page and its card all count by this function. A function
@@ -61,14 +61,14 @@ def counted(
     """
     names = {(day, name) for day, some in asked.items() for name in some}
     passing = {(day, name) for day, some in own.items() for name in some}
-    return Counted(len(names & passing), len(names))
+    return OwnCount(len(names & passing), len(names))
 
 
 @dataclass
 class Mine:
     """The week's functions, and whose they are."""
 
-    functions: SimpleNamespace  # by name, ready for the capstone's `pick`
+    functions: SimpleNamespace  # the functions by name, ready for the capstone
     own: dict[int, list[str]] = field(default_factory=dict)  # the student's, by day
     # (day, name, why) of those that are the library's.
     replaced: list[tuple[int, str, str]] = field(default_factory=list)
@@ -80,7 +80,7 @@ class Mine:
 
     @property
     def total(self) -> int:
-        """How many functions the days ask for, called by the capstone or not."""
+        """The number of functions of the days, called by the capstone or not."""
         return len(self.yours) + len(self.replaced)
 
 
@@ -162,7 +162,7 @@ def statuses(day: Day) -> dict[str, str]:
 
     The checker is asked where its last word is not on the file as it is.
     """
-    found = memory.known(day)
+    found = memory.task_states(day)
     if len(found) < len(day.tasks):
         key = memory.key_of(day)
         with Sandbox() as sandbox:
@@ -174,7 +174,7 @@ def _module(day: Day) -> ModuleType | None:
     """Return a student's file as a module, or None where it does not load here."""
     module = ModuleType(day.work.stem)
     module.__file__ = str(day.work)
-    sys.modules[module.__name__] = module  # as for an import: it may ask for itself
+    sys.modules[module.__name__] = module  # the module may import itself while it loads
     sys.path.insert(0, str(day.work.parent))
     try:
         code = compile(day.work.read_bytes(), str(day.work), "exec")

@@ -1,4 +1,4 @@
-"""How a check reads: a line per task and deliverable, what is next, how far it is."""
+"""The text of a check: a line per task and deliverable, and the next step."""
 
 import textwrap
 from collections.abc import Sequence
@@ -25,15 +25,15 @@ _LABEL = {
     "borrowed": "borrowed",
     "unfinished": "passed as far as it was run",
 }
-_COLOUR = {"passed": "32", "wrong": "31"}  # of all others: yellow
-_INDENT = 7  # where a message starts
+_COLOUR = {"passed": "32", "wrong": "31"}  # every other status is yellow
+_INDENT = 7  # the column at which a message starts
 
 
 @dataclass(frozen=True)
 class Report:
     """One check of a day."""
 
-    day: Day  # from the manifest
+    day: Day  # the day, read from its manifest
     tasks: Sequence[TaskResult]  # one result per task that was checked
     # One per deliverable; empty when one task alone was checked.
     items: Sequence["Item"] = ()
@@ -51,23 +51,23 @@ class Report:
 
     @property
     def done(self) -> int:
-        """How many tasks and deliverables passed."""
+        """The number of tasks and deliverables that passed."""
         passed = sum(result not in self.left for result in self.counted)
         return passed + sum(item.passed for item in self.items)
 
     @property
     def total(self) -> int:
-        """How many there are."""
+        """The number of tasks and deliverables."""
         return len(self.counted) + len(self.items)
 
     @property
     def passed(self) -> bool:
-        """Whether nothing is left to do."""
+        """Nothing is left to do."""
         return self.done == self.total
 
     @property
     def problem(self) -> str:
-        """Why the student's file does not load; "" where it does."""
+        """The reason if the student's file does not load, else ""."""
         verdict = self.tasks[0].verdict
         return verdict.message if verdict.mistake == "does-not-load" else ""
 
@@ -170,12 +170,12 @@ def state_of(report: Report, result: TaskResult) -> tuple[str, str, list[str]]:
     verdict = result.verdict
     lines = []
     if not report.problem and verdict.mistake != "unwritten":
-        lines = [_said(report, result, explain=False), verdict.call]
+        lines = [_sentence(report, result, explain=False), verdict.call]
     return _name(result.task), _LABEL[_status(report, result)], lines
 
 
 def _status(report: Report, result: TaskResult) -> str:
-    verdict = result.verdict  # of what is to do, its mistake may say why
+    verdict = result.verdict  # a task to do can have its mistake as its label
     status = verdict.mistake if verdict.mistake in _LABEL else verdict.status
     status = "valid" if verdict.valid else status
     return "unjudged" if report.problem else status
@@ -187,7 +187,7 @@ def _below(report: Report, result: TaskResult, explain: bool) -> list[str]:
     lines = []
     begun = verdict.function not in ("", result.task.functions[0])
     if not report.problem and (begun or verdict.mistake != "unwritten"):
-        says = _said(report, result, explain)
+        says = _sentence(report, result, explain)
         lines += _wrapped(says, _INDENT)
         if verdict.call and verdict.message in says:
             lines += _wrapped(verdict.call, _INDENT)
@@ -212,7 +212,7 @@ def matrix_of(compared: Compared) -> list[str]:
     return ["The matrix of this call, with its wrong entries in brackets:", *rows]
 
 
-def _said(report: Report, result: TaskResult, explain: bool) -> str:
+def _sentence(report: Report, result: TaskResult, explain: bool) -> str:
     """Return what to say of a task: a mistake once, what follows from it in short."""
     verdict = result.verdict
     if verdict.mistake == "inherited":

@@ -1,4 +1,4 @@
-"""How long a student's functions may take, beside what the kit's own take here.
+"""Time limits of a student's functions, compared with the time of the kit's own.
 
 A lab's run has seconds, `[limits] lab_seconds` of its day.toml, and no count of calls;
 what it waits for a processor does not count. Where they are up, the kit's own functions
@@ -28,7 +28,7 @@ from labkit.lesson.lab_module import load_lab
 
 MORE = 3.0  # times as long, where the student's functions are not what is slow
 FAST = 3.0  # times what the kit's own take: about as fast as those
-LITTLE = 0.1  # of all seconds: too little to slow a lab down
+LITTLE = 0.1  # a smaller fraction of the budget cannot slow a lab down
 ONE_CALL = 20.0  # seconds that a call of a task may take, at the most
 POLL = 0.5  # seconds
 EMPTY = 50  # questions that ask for nothing, to learn what asking takes
@@ -40,7 +40,7 @@ ENDLESS = 100.0
 Functions = Mapping[str, Callable[..., Any]]
 
 
-class EnoughAsked(Exception):  # noqa: N818 (it ends a run; nothing went wrong here)
+class TimeUsedUp(Exception):  # noqa: N818 (it ends a run; nothing went wrong here)
     """As many seconds went by as a lab's run may take."""
 
 
@@ -71,9 +71,10 @@ class Budget(Deadline):
         super().__init__(self.whole.within(seconds), clock)
         self._kits = kits
         self.stretch = ONE_CALL + seconds
-        self._since = 0.0  # when a function was last called
+        self._since = 0.0  # the time of the last call
         self.calls = Counter[str]()
-        self.stayed = set[str]()  # whose call could not travel: the kit's own took it
+        # Functions whose calls cannot travel; the kit's own ran.
+        self.stayed = set[str]()
         self._last: dict[str, tuple[Any, ...]] = {}  # arguments, the latest call last
         self._kits_own: dict[str, float] | None = None  # seconds a call
 
@@ -81,10 +82,10 @@ class Budget(Deadline):
         """Take a call.
 
         Raises:
-            EnoughAsked: no time is left.
+            TimeUsedUp: no time is left.
         """
         if self.over and not self._goes_on():
-            raise EnoughAsked
+            raise TimeUsedUp
         self._since = self.used
         self.calls[name] += 1
         self._last.pop(name, None)
@@ -118,9 +119,9 @@ class Budget(Deadline):
         finally:
             done.set()
             watcher.join()
-            raise_in(here, None)  # what came too late to be raised
+            raise_in(here, None)  # a late exception is withdrawn
 
-    def told(self) -> str:
+    def time_used(self) -> str:
         """Return what the time went for, as a sentence's end."""
         calls = count(self.calls.total(), "call")
         kits = f"the kit's own take {self._kits_took():.2g} s for as many calls"
@@ -171,7 +172,7 @@ def seconds_of(function: Callable[..., Any] | None, args: Sequence[Any]) -> floa
         started = time.perf_counter()
         try:
             function(*mine)  # type: ignore[misc]
-        except Exception:  # of arguments that a wrong number led to
+        except Exception:  # a wrong number can lead to arguments that no function takes
             return 0.0
         times.append(time.perf_counter() - started)
     return min(times, default=0.0)
@@ -192,7 +193,7 @@ def not_to_its_end(title: str, budget: Budget) -> str:
     """Return that a lab was not run to its end: the same words on every page."""
     where = f' in "{title}"' if title else ""
     return (
-        f"The lab was not run to its end: {budget.told()}. It was stopped{where}, "
+        f"The lab was not run to its end: {budget.time_used()}. It was stopped{where}, "
         "and the steps after that were not tested."
     )
 

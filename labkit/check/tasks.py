@@ -1,4 +1,4 @@
-"""From a student's file to one result per task."""
+"""Checks a student's file: one result per task."""
 
 import contextlib
 import re
@@ -13,7 +13,7 @@ from pathlib import Path
 from labkit.base.deadline import Deadline
 from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.check.slow import too_slow
-from labkit.judge.answers import as_clause
+from labkit.judge.answers import as_clause, capitalised
 from labkit.judge.ask import Asked, asked_of, replies
 from labkit.judge.cases import in_cases
 from labkit.judge.guard import attempt, noting, quiet
@@ -21,13 +21,13 @@ from labkit.judge.judge import judge, unjudged
 from labkit.judge.mistake import Verdict
 from labkit.judge.replies_read import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
-from labkit.judge.row import row_of
+from labkit.judge.row import inside, row_of
 from labkit.lesson.added_code import kits_functions, kits_own, old_names
 from labkit.lesson.borrowed import borrowed_tasks
 from labkit.lesson.day import Day, Task
-from labkit.lesson.own_files import SCRIPT
 from labkit.lesson.slips import arguments, renamed, twice, unfinished
 from labkit.lesson.starter import function_lines
+from labkit.lesson.untrusted_files import SCRIPT
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox, deadline_of
 
@@ -36,17 +36,17 @@ FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
 
 @dataclass(frozen=True)
 class TaskResult:
-    """How a task stands."""
+    """The result of a task."""
 
-    task: Task  # as in the manifest
-    verdict: Verdict  # what the answers show
-    printed: str = ""  # what its functions printed, for --explain
-    # What the sandbox refused, also where the code went on without.
+    task: Task  # the task, read from the manifest
+    verdict: Verdict  # the verdict on the answers
+    printed: str = ""  # the output of its functions, for --explain
+    # Everything that the sandbox refused, also if the code went on without it.
     refused: tuple[str, ...] = ()
 
     @property
     def passed(self) -> bool:
-        """Whether nothing is left to do."""
+        """Nothing is left to do."""
         return self.verdict.status == "passed"
 
 
@@ -119,7 +119,7 @@ class _Check:
         self.borrowed = borrowed_tasks(day, self.source)
         self.renamed = old_names(day, self.source)
         self.added = self.renamed + kits_own(day, self.borrowed)
-        self.asked: dict[str, list[Asked]] = {}  # of each task, when it was asked last
+        self.asked: dict[str, list[Asked]] = {}  # the latest questions of each task
 
     def ask(
         self, tasks: Sequence[Task], added: str | None = None
@@ -242,7 +242,8 @@ def _verdict_of(day: Day, task: Task, asked: Sequence[Asked], source: str) -> Ve
     for one in asked:
         verdict = replace(_guarded(day, task, one, source), function=one.function)
         if len(asked) > 1 and verdict.message and not verdict.follows:
-            says = f"In `{one.function}`, {as_clause(verdict.message)}"
+            clause = as_clause(verdict.message)
+            says = capitalised(inside(f"in `{one.function}`, ", clause))
             if verdict.status == "todo":
                 says = f"{one.function}: {verdict.message}"
             verdict = replace(verdict, message=says)
@@ -266,7 +267,8 @@ def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
     verdict = judge(asked, source, arguments(source, function))
     came = replies(asked.exchanges)
     if verdict.mistake in {held.slug for held in asked.ask.held_out}:
-        further = chain(*asked.held_out)  # who is stopped there made no such mistake
+        # A function that is stopped there made no such mistake.
+        further = chain(*asked.held_out)
         stopped = [one for one in further if one.reply and one.reply.kind == "stopped"]
         verdict = unanswered(stopped) or verdict
     if verdict.mistake == "nothing-returned":
@@ -326,7 +328,8 @@ def _not_utf8(script: Path) -> str:
     try:
         with tokenize.open(script) as file:
             file.read()
-    except (SyntaxError, LookupError, UnicodeError):  # of "coding: rot13"
+    # A line such as "coding: rot13" causes a LookupError.
+    except (SyntaxError, LookupError, UnicodeError):
         return f"{script.name} is not in UTF-8. Save it as UTF-8 in your editor."
     return ""
 

@@ -15,7 +15,7 @@ import sys
 import time
 from collections.abc import Iterator
 
-from labkit.author import docstring, files, ranges, seen, student, week
+from labkit.author import display, docstring, files, ranges, student, week
 from labkit.base import cli, processes
 from labkit.commands import docs
 from labkit.judge.guard import LOUD
@@ -28,8 +28,8 @@ from robo47.paths import ROOT, shown
 
 TESTS = ("test_days.py", "test_days_judging.py", "test_days_catalogue.py")
 TOLD = "test_a_file_is_told_what_the_catalogue_says"  # the catalogue has better words
-MOST_FAILURES = 10  # that are told
-# What to do where a test of every day fails, by words of its name.
+MOST_FAILURES = 10  # the number of failures that are printed
+# Remedies for a failing test of every day, by words of its name.
 REMEDIES = {
     "no_mistake_is_there_that_no_question_shows": "the slugs on one side alone give "
     "the right answer, or stop, at every question: yield an input where they differ",
@@ -180,8 +180,8 @@ PARTS = {
     "ranges": spans,
     "catalogue": catalogue,
     "student": student.faults_of,
-    "tabs": seen.tabs,
-    "pictures": seen.pictures,
+    "tabs": display.tabs,
+    "pictures": display.pictures,
     "constants": constants,
     "documents": documents,
     "notebook": notebooks,
@@ -189,7 +189,7 @@ PARTS = {
     "style": style,
     "tests": tests,
 }
-NOTES: list[str] = []  # of the part that is looked at: no faults, worth a look
+NOTES: list[str] = []  # remarks of the present part that are no faults
 
 
 def look(name: str, day: Day) -> bool:
@@ -201,7 +201,7 @@ def look(name: str, day: Day) -> bool:
         with cli.busy(name):
             for line in PARTS[name](day):
                 found.append(line)
-    except Robo47Error as error:  # what was found before it stands
+    except Robo47Error as error:  # the earlier findings remain
         found.append(str(error))
     print(f"{cli.verdict(not found)}  {name:10}{time.monotonic() - began:6.1f} s")
     for line in [*found, *(f"to look at: {note}" for note in NOTES)]:
@@ -227,7 +227,7 @@ def one_task(day: Day, task: Task) -> int:
 
 def main() -> int:
     """Look at a day."""
-    os.environ[LOUD] = "1"  # what stops in the checker is its author's to see
+    os.environ[LOUD] = "1"  # an author sees the errors of the checker's searches
     parser = cli.parser(__doc__)
     parser.add_argument("day", type=cli.day, nargs="?", help="default: the kit's last")
     parser.add_argument("--fast", action="store_true", help="without its tests")

@@ -14,9 +14,9 @@ import sys
 from labkit.base import cli
 from labkit.commands.hint import check as open_tasks
 from labkit.commands.start import require_begun
+from labkit.lesson.backup import rewrite
 from labkit.lesson.borrowed import with_borrowed
 from labkit.lesson.day import Day, chosen_day, find_task
-from labkit.lesson.kept import rewrite
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import function_lines, require_kits
 from robo47.errors import Robo47Error

@@ -25,8 +25,8 @@ from labkit.base import cli
 from labkit.base.text import visible
 from labkit.check import own_functions
 from labkit.lesson.day import chosen_week
-from labkit.lesson.predicted import predictions, rows_asked
-from labkit.lesson.students_own import retrospectives
+from labkit.lesson.predictions import predictions, rows_asked
+from labkit.lesson.student_files import retrospectives
 from labkit.lesson.week import Week
 from robo47.errors import Robo47Error
 from robo47.paths import shown

@@ -42,14 +42,14 @@ from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-SMALL = "figures/day{}_small.png"  # of a week's folder: a day's thumbnail
+SMALL = "figures/day{}_small.png"  # a day's thumbnail in its week's folder
 COLUMNS = 4  # of the table of thumbnails: as many as a README on GitHub has room for
-FUNCTIONS = ROOT / "docs" / "library.md"  # of the library, by day
+FUNCTIONS = ROOT / "docs" / "library.md"  # the page of the library, by day
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 TABLE = "table"  # asks for an output that is Markdown already
 ROUNDING = 1e-9  # errors this small differ between processors, and should
 OLD_ZERO = re.compile(r"(?<![\d.])0(?:\.0+)?e[-+]?\d+")  # a lab prints such as 0
-# What depends on where the robot came from, and where among equals the worst was.
+# These lines depend on the source of the robot, and on which of equal errors is first.
 VARIES = re.compile(r"^robot: .*|worst at \S+|where q = .*", re.MULTILINE)
 
 
@@ -70,7 +70,7 @@ def output_of(command: str) -> str:
     return done.stdout
 
 
-def wanted(request: str) -> str:
+def requested_output(request: str) -> str:
     """Return the output that a document asks for."""
     command, _, part = (piece.strip() for piece in request.partition("|"))
     text = output_of(command)
@@ -169,7 +169,7 @@ def rebuilt(
         return body
 
     def run(request: str, old: str) -> str:
-        text = wanted(request).rstrip()
+        text = requested_output(request).rstrip()
         whole = request.endswith(f"| {TABLE}")
         return renewed(
             request, old, f"{text}\n" if whole else f"```text\n{text}\n```\n"
@@ -210,7 +210,8 @@ def renew(documents: Mapping[Path, bool], check: bool = False) -> int:
             print(f"{shown(path)}: {'drifted' if check else 'new'}: {request}")
         drift += len(drifted)
         if drifted and not check:
-            path.write_text(text, "utf-8", newline="\n")  # on every platform
+            # The same line ends on every platform.
+            path.write_text(text, "utf-8", newline="\n")
     return drift
 
 

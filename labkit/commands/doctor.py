@@ -297,7 +297,7 @@ def examine() -> list[Line]:
     here = check_python(python)
     checks: list[Callable[[], Line]] = [check_kit, lambda: here, check_platform]
     checks += [check_shell]
-    if here.status == "good":  # else these only say so again
+    if here.status == "good":  # the other lines would repeat the same fault
         inside = [check_mujoco, check_robot, check_lessons, check_names]
         inside += [check_wall, check_gl]
         checks += [functools.partial(check, python) for check in inside]

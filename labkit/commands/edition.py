@@ -18,7 +18,7 @@ from labkit.base import cli
 from labkit.lesson.day import LOG, all_days
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.sealed import seal
-from labkit.lesson.students_own import is_made
+from labkit.lesson.student_files import is_made
 from labkit.update.git import NOBODY, ask
 from robo47 import __version__
 from robo47.errors import Robo47Error
@@ -31,7 +31,7 @@ LEFT_OUT = re.compile(
 )
 COMMANDS = "test|soak|lint|docs|site|oracle|bench|test-matrix|grade|edition"
 NOT_HERE = re.compile(rf"make ({COMMANDS})\b")
-SECTION = "Where things are"  # of README: it lists what is left out
+SECTION = "Where things are"  # the README's section that lists what is left out
 FOR_TESTS = re.compile(r"\s+`make test` runs[^.]*\.")  # README's sentence about them
 FOR_AUTHORS = re.compile(r"To change the kit.*", re.DOTALL)  # README's last sentence
 ABOUT = """# Student edition of robo47 {version}
@@ -95,7 +95,7 @@ def refuse_others(out: Path) -> list[str]:
         return []
     if not (out / NOTE).is_file() or not (out / ".git").is_dir():
         raise Robo47Error(f"{shown(out)} is there and is no edition; choose another")
-    looks = "--no-optional-locks", "status"  # on a full disk git would leave a lock
+    looks = "--no-optional-locks", "status"  # git would leave a lock on a full disk
     if ask(*looks, "--porcelain", "--untracked-files=no", at=out):
         raise Robo47Error(f"{shown(out)} has changes; commit or take them back first")
     return ask("ls-files", "-z", at=out).split("\0")[:-1]

@@ -27,7 +27,7 @@ from labkit.fresh.compare import faults
 from labkit.fresh.missing import findings, unwritten
 from labkit.lesson.day import chosen_week, days_of
 from labkit.lesson.week import find_week
-from labkit.report.week_labs import Ran, run_labs
+from labkit.report.week_labs import LabResult, run_labs
 from robo47.paths import ROOT, shown
 
 FOLDER = "robo47-fresh-"
@@ -40,8 +40,8 @@ def progress(begun: float, what: str) -> None:
 
 
 def compared(
-    running: Iterable[Ran], clone: Path, say: Callable[[str], None]
-) -> tuple[list[Ran], list[str]]:
+    running: Iterable[LabResult], clone: Path, say: Callable[[str], None]
+) -> tuple[list[LabResult], list[str]]:
     """Return what became of the labs in the clone, and what is not right."""
     labs, wrong = [], []
     for ran in running:
@@ -53,7 +53,7 @@ def compared(
     return labs, wrong
 
 
-def verdict(labs: Sequence[Ran], wrong: Sequence[str]) -> int:
+def verdict(labs: Sequence[LabResult], wrong: Sequence[str]) -> int:
     """Print what is to be fixed, and one clear line; return the exit code."""
     for line in wrong:
         print(cli.wrapped(f"  - {line}", "    "))

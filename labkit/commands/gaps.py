@@ -53,8 +53,8 @@ PUT_IN = (
     "{0}.astype(np.float32)",
 )
 _TURNED = {ast.Lt: ast.GtE, ast.LtE: ast.Gt, ast.Gt: ast.LtE, ast.GtE: ast.Lt}
-SECONDS = 5  # of one call; what takes longer is noticed
-SEED = 47  # of the drawn inputs: a change that they alone notice is noticed by chance
+SECONDS = 5  # the limit of one call; a slower call counts as detected
+SEED = 47  # the seed of the sampled inputs
 
 
 class Change(NamedTuple):
@@ -133,7 +133,8 @@ def _is_0(node: ast.expr) -> bool:
 def _statements(tree: ast.Module) -> dict[int, ast.AST]:
     """Return the smallest statement around each node, by the node's id."""
     found: dict[int, ast.AST] = {}
-    for one in ast.walk(tree):  # from the outside in: the smallest comes last
+    # Outer nodes come first, so the smallest statement remains.
+    for one in ast.walk(tree):
         if isinstance(one, ast.stmt):
             found |= {id(node): one for node in ast.walk(one)}
     return found
@@ -189,12 +190,12 @@ def _notices(asked: Asked, function: Callable[..., Any]) -> bool:
     """Return whether some question tells a function from the right one."""
     pairs = zip(asked.ask.held_out, asked.held_out, strict=True)
     held = [one for held, some in pairs if not held.mistaken for one in some]
-    signal.signal(signal.SIGALRM, _late)
+    signal.signal(signal.SIGALRM, _stop)
     every = (*asked.main, *asked.fresh, *held)
     return any(_wrong(asked, one, function) for one in every)
 
 
-def _late(*_: Any) -> None:
+def _stop(*_: Any) -> None:
     raise TimeoutError
 
 

@@ -38,7 +38,7 @@ from typing import Any
 from labkit.base import cli, git, processes, store
 from labkit.base.text import count, visible
 from labkit.grade import engine, hunts, hunts_page, page
-from labkit.grade.classroom import Again, Classroom, pull, write_all
+from labkit.grade.classroom import Classroom, Regrading, pull, write_all
 from labkit.grade.course import Course, percent
 from labkit.grade.journal import Journal
 from labkit.grade.package import version
@@ -51,14 +51,15 @@ from labkit.grade.sheet import (
     table,
     write,
 )
-from labkit.hunt.quarry import LEVELS
+from labkit.hunt.mistakes import LEVELS
 from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
 from labkit.sandbox.process import wall
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
 
-KIT = ("--kit", "--ki")  # as argparse understands it
-PROOF_SECONDS = 900.0  # for one; a whole week takes a minute on a quiet machine
+KIT = ("--kit", "--ki")  # argparse accepts both spellings
+# The limit of one proof; a whole week takes a minute on a quiet machine.
+PROOF_SECONDS = 900.0
 OF_KIT: dict[str, Any] = {"folder": ROOT, "seconds": 60}  # git's answers on this kit
 
 
@@ -302,15 +303,15 @@ def kit_at(tag: str) -> Path:
     return folder
 
 
-def again_of(text: str | None) -> Again:
+def again_of(text: str | None) -> Regrading:
     """Return whom `--again` means: nobody without it, everybody where it stands alone.
 
     Args:
         text: None without it, "" where it stands alone, folders with commas between.
     """
     if text is None:
-        return Again()
-    return Again(folders=text.split(",")) if text else Again(everybody=True)
+        return Regrading()
+    return Regrading(folders=text.split(",")) if text else Regrading(everybody=True)
 
 
 def grade_days(
@@ -335,7 +336,7 @@ def grade_days(
         for day in days:
             folder = out.parent / f"day{day.number}"
             own = folder / "grades.csv" if len(days) > 1 else out
-            # What is no folder is named by the journal.
+            # The journal names a path that is no folder.
             with contextlib.suppress(FileExistsError, FileNotFoundError):
                 own.parent.mkdir(parents=True, exist_ok=True)
             path = own.parent / "grading.jsonl"

@@ -31,7 +31,7 @@ from labkit.check import memory
 from labkit.hunt import case as cases
 from labkit.hunt import experiment, tally
 from labkit.hunt.case import Case
-from labkit.hunt.quarry import LEVELS
+from labkit.hunt.mistakes import LEVELS
 from labkit.hunt.script import closed_capstone, closed_lab, closed_names, kit_beside
 from labkit.lesson.day import Day, chosen_day
 from labkit.lesson.starter import require_kits
@@ -39,7 +39,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 if TYPE_CHECKING:
-    from labkit.hunt.verdict import Repaired
+    from labkit.hunt.verdict import Repair
 
 HOW = "A call, such as ad([0, 0, 1, 0, 0, 0]), is made; Enter alone runs all of it."
 SUSPECT = "Which function do you suspect? "
@@ -132,7 +132,7 @@ def tell(case: Case) -> None:
     print(DO)
 
 
-def known(case: Case, function: str) -> list[str]:
+def rewritten(case: Case, function: str) -> list[str]:
     """Return the functions that are written anew; refuse a name of none.
 
     Raises:
@@ -152,11 +152,11 @@ def suspect(case: Case, function: str, expected: str) -> None:
     Raises:
         Robo47Error: the hunted script has no such function.
     """
-    written = function in known(case, function)
+    written = function in rewritten(case, function)
     case.suspected.append([function, expected])
     lines = experiment.run(case)
     print(f"\nYou suspect {function}.")
-    print(experiment.beside(expected, lines))
+    print(experiment.side_by_side(expected, lines))
     where = f"write {function} anew in {shown(case.script)}, and: "
     where = "it is written anew already: " if written else where
     print(cli.wrapped(f"\nDoes it fit? Then {where}make hunt ARGS=--judge"))
@@ -171,7 +171,7 @@ def ask(case: Case) -> int:
         if not function:
             experiment.run(case)
             return cli.EXIT_OK
-        expected = typed(EXPECT)
+        expected = answer_to(EXPECT)
     except EOFError:
         print()
         return cli.EXIT_OK
@@ -184,12 +184,12 @@ def suspected(case: Case) -> str:
 
     A name that the script does not have is answered, and the question is asked again.
     """
-    while function := typed(SUSPECT):
+    while function := answer_to(SUSPECT):
         if "(" in function:
             experiment.call(case, function)
             continue
         try:
-            known(case, function)
+            rewritten(case, function)
         except Robo47Error as error:
             print(cli.wrapped(str(error)))
         else:
@@ -197,7 +197,7 @@ def suspected(case: Case) -> str:
     return function
 
 
-def typed(question: str) -> str:
+def answer_to(question: str) -> str:
     """Return what somebody answers, without what a terminal adds."""
     return "".join(c for c in input(question) if c.isprintable()).strip()
 
@@ -215,10 +215,10 @@ def judge(case: Case) -> int:
         )
     case.checks += 1
     for one in repaired:
-        print(cli.wrapped(f"{one.function}: {told(one)}"))
+        print(cli.wrapped(f"{one.function}: {verdict_sentence(one)}"))
     if not is_found(case, repaired):
         case.save()
-        missing = len(case.quarries) - sum(one.guilty for one in repaired)
+        missing = len(case.mistakes) - sum(one.guilty for one in repaired)
         left = f"{count(missing, 'function')} left to find; " if missing > 0 else ""
         return cli.conclude(False, f"{left}{count(case.runs, 'run')} so far")
     reveal(case)
@@ -229,7 +229,7 @@ def judge(case: Case) -> int:
     return conclude(True, f"found in {asked}")
 
 
-def told(one: "Repaired") -> str:
+def verdict_sentence(one: "Repair") -> str:
     """Return what is said of a function that was written anew."""
     if not one.guilty:
         return "not it; it was right as it was."
@@ -241,7 +241,7 @@ def told(one: "Repaired") -> str:
 def reveal(case: Case) -> None:
     """Say what the mistake was."""
     print()
-    for one in case.quarries:
+    for one in case.mistakes:
         says = one.says or "its numbers say it"
         print(cli.wrapped(f"The mistake in {one.function}, {one.slug}: {says}."))
 
@@ -299,7 +299,7 @@ def go_on(case: Case, options: argparse.Namespace) -> int:
 
 def write_seen(day: Day) -> int:
     """Write down which mistakes a week's capstone shows; for authors, in minutes."""
-    from labkit.hunt.seen import write_all
+    from labkit.hunt.capstone_trials import write_all
 
     print(write_all(day, print))
     return cli.EXIT_OK

@@ -23,10 +23,11 @@ from labkit.base import cli, processes
 from labkit.lesson.week import weeks
 from robo47.paths import ROOT
 
-THREE = ("Prescott", "Haswell", "SkylakeX")  # without AVX, with AVX2, with AVX-512
+THREE = ("Prescott", "Haswell", "SkylakeX")  # these have no AVX, AVX2 and AVX-512
 MARKS = "not soak and not browser and not network"
 DOCUMENTS = "tests/test_docs.py"  # one of them runs every command of the documents
-NO_AVX = {"NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4"}  # of NumPy's own loops
+# This setting is for NumPy's own loops.
+NO_AVX = {"NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4"}
 # Prints whose kernels OpenBLAS takes, after it has used them; nothing without OpenBLAS.
 PROBE = """
 import ctypes, pathlib, numpy
@@ -36,7 +37,7 @@ for path in pathlib.Path(numpy.__file__).parents[1].glob("numpy.libs/*openblas*"
     name.restype = ctypes.c_char_p
     print(name().decode())
 """
-OLDER = {"Katmai": "Prescott"}  # what OpenBLAS calls itself where it was asked for that
+OLDER = {"Katmai": "Prescott"}  # OpenBLAS's own name for a kernel that was requested
 
 
 def environment(kernel: str) -> dict[str, str]:
@@ -51,7 +52,7 @@ def environment(kernel: str) -> dict[str, str]:
     return plain | asked | (NO_AVX if kernel == "Prescott" else {})
 
 
-def taken(kernel: str) -> str:
+def kernel_used(kernel: str) -> str:
     """Return whose kernels OpenBLAS takes where these are asked for; "" if none runs.
 
     Args:
@@ -105,11 +106,11 @@ def main() -> int:
     parser.add_argument("kernels", nargs="*", default=THREE, metavar="KERNEL")
     parser.add_argument("--others", action="store_true", help="not this machine's own")
     options = parser.parse_args()
-    own = taken(os.environ.get("OPENBLAS_CORETYPE", "")) if options.others else ""
+    own = kernel_used(os.environ.get("OPENBLAS_CORETYPE", "")) if options.others else ""
     bad = False
     whole = True
     for kernel in options.kernels:
-        found = taken(kernel)
+        found = kernel_used(kernel)
         if found.lower() != kernel.lower():
             print(f"left out  {kernel}: here OpenBLAS takes {found or 'none'} for it")
         elif kernel == own:

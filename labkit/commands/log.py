@@ -19,7 +19,7 @@ from labkit.base.text import count
 from labkit.log import append_row
 from labkit.log.convert import convert
 from labkit.log.logfile import command, restore, unsaved_rows
-from labkit.log.rows import typed
+from labkit.log.rows import checked_row
 from labkit.log.scan import Line, came_back, watched
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -90,7 +90,7 @@ def parse(given: list[str], allow_nonfinite: bool) -> dict[str, str]:
     missing = [name for name in NEEDED if not fields.get(name)]
     if missing:
         faults.append(f"a row needs {', '.join(missing)}")
-    faults += typed(fields, allow_nonfinite)[1]
+    faults += checked_row(fields, allow_nonfinite)[1]
     if faults:
         raise Robo47Error(f"not recorded: {'; '.join(faults)}. Example: {EXAMPLE}")
     return fields

@@ -20,7 +20,7 @@ FRAME_SECONDS = 1 / 60
 PROBE_SECONDS = 20
 # Both of MuJoCo's would leave a small window no room for the arm.
 NO_PANELS = {"show_left_ui": False, "show_right_ui": False}
-# What MuJoCo's viewer needs: a GLFW window with an OpenGL context.
+# MuJoCo's viewer needs a GLFW window with an OpenGL context.
 _PROBE = (
     "import glfw, sys; glfw.init() or sys.exit(1); "
     "glfw.window_hint(glfw.VISIBLE, False); "
@@ -67,7 +67,7 @@ def at_ready(model: mujoco.MjModel) -> mujoco.MjData:
     """
     data = simulate.start(model, panda.READY_Q)
     _, _, motors = simulate.addresses(model)
-    data.ctrl[motors] = panda.READY_Q  # else the arm would sag at once
+    data.ctrl[motors] = panda.READY_Q  # the arm would sag at once without this
     return data
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
-from labkit.author import moved
+from labkit.author import renumber
 from labkit.author.blank import worksheet_of
 from labkit.base import cli
 from labkit.commands import docs
@@ -23,8 +23,10 @@ from labkit.lesson.week import weeks
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-TEMPLATES = Path(__file__).parent / "templates"  # with $number, $name, $week
-COPIED = ("Makefile", "src/kit.py", "docs/RETRO_w{}.md")  # from another week
+# The files contain $number, $name and $week.
+TEMPLATES = Path(__file__).parent / "templates"
+# These files are copied from another week.
+COPIED = ("Makefile", "src/kit.py", "docs/RETRO_w{}.md")
 LAST_DAY = 47
 
 
@@ -54,7 +56,9 @@ def new_day(number: int, week: str, name: str) -> list[Path]:
     return [*begun, *written, sheet]
 
 
-def move_day(old: int, number: int, week: str = "", name: str = "") -> moved.Moved:
+def move_day(
+    old: int, number: int, week: str = "", name: str = ""
+) -> renumber.Renumbering:
     """Give a day another number, and where asked for another week and name.
 
     Args:
@@ -73,7 +77,7 @@ def move_day(old: int, number: int, week: str = "", name: str = "") -> moved.Mov
         raise Robo47Error(
             f"day {old} is all that week {day.week.number} has; a week needs a day"
         )
-    done = moved.move(day, number, folder, name)
+    done = renumber.move(day, number, folder, name)
     _unlist(here, old)
     if not begun:
         _list(folder / "week.toml", number)

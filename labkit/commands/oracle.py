@@ -48,7 +48,7 @@ def bring_pinocchio() -> None:
     if done.returncode != 0:
         raise Robo47Error(f"{PIN} could not be installed: {done.stderr.strip()[-300:]}")
     importlib.invalidate_caches()
-    site.addsitedir(str(ENVIRONMENT))  # what it has now
+    site.addsitedir(str(ENVIRONMENT))  # the environment exists now
 
 
 def read_robot(entry: str) -> tuple[Any, Any, Any]:
@@ -115,7 +115,7 @@ def ask_for_jacobians() -> dict:
     M = panda.home_pose(ours)
     B = mr.Adjoint(mr.TransInv(M)) @ S
     jacobian = pin.computeFrameJacobian
-    turned = [3, 4, 5, 0, 1, 2]  # to (omega; v)
+    turned = [3, 4, 5, 0, 1, 2]  # the order becomes (omega; v)
     ask: dict[str, Any] = {
         kind: lambda row, r=r: jacobian(model, data, row, frame, r)[turned]
         for kind, r in pin.ReferenceFrame.names.items()

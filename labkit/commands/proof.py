@@ -31,7 +31,7 @@ from labkit.check.own_functions import capstone_of
 from labkit.fresh import FRESH
 from labkit.grade.roster import Student
 from labkit.lesson.day import Day, chosen_week, days_of, find_day
-from labkit.lesson.students_own import OWN_LABS
+from labkit.lesson.student_files import OWN_LABS
 from labkit.lesson.week import Week
 from labkit.proof import door, page
 from labkit.proof.capstone import NO_CAPSTONE, attempt

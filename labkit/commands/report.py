@@ -29,6 +29,7 @@ from labkit.log.logfile import command
 from labkit.log.scan import watched
 from labkit.report import page
 from labkit.report.series import Report, Series, collect, series_of
+from labkit.report.week_facts import facts_of
 from robo47.errors import Robo47Error
 from robo47.paths import METRICS_CSV, shown
 
@@ -52,13 +53,16 @@ def main() -> int:
     heading = describe(args, report)
     out = args.out or args.file.parent
     shown_weeks = [] if filtered else begun(report)
-    if asked_week:  # of the others, those that an earlier run wrote
+    if asked_week:  # the pages of the other weeks may be there from an earlier run
         shown_weeks = [w for w in shown_weeks if (out / page_of(w)).is_file()]
     else:
         checked = {day.number: last_check(day) for day in days} if mine else {}
         beside = [week.number for week in shown_weeks]
         sheets = {day.number: worksheet_of(day) for day in days} if mine else {}
-        text = page.render(report, heading, beside, checked, sheets)
+        own_days = [facts_of(day, report.series) for day in days] if mine else []
+        text = page.render(
+            report, heading, beside, checked, sheets, own_days, memory.journal()
+        )
         write(out / "report.html", text)
     for week in [asked_week] if asked_week else shown_weeks:
         write_week(report, heading, out, week, shown_weeks, mine)
@@ -107,7 +111,6 @@ def write_week(
 ) -> None:
     """Write the page on a week, and from the student's own log its retrospective."""
     from labkit.report import week_page, week_retro
-    from labkit.report.week_facts import facts_of
 
     facts = [facts_of(day, report.series) for day in days_of(week)]
     others = [other.number for other in beside if other != week]
@@ -132,7 +135,7 @@ def last_check(day: Day) -> str:
     """Return a line on what the last check found in the student's file as it is."""
     if not day.work.is_file():
         return f"Not begun: make start DAY={day.number}"
-    known = memory.known(day)
+    known = memory.task_states(day)
     if any(task.id not in known for task in day.tasks):
         return f"Not checked as it is now: make check DAY={day.number}."
     left = [f"{t.id} {known[t.id]}" for t in day.tasks if known[t.id] != "passed"]
@@ -146,7 +149,7 @@ def tell(report: Report, days: list[Day]) -> None:
     for day in days:
         if not day.work.is_file():
             continue
-        found = memory.known(day)
+        found = memory.task_states(day)
         done = all(found.get(t.id) == "passed" for t in day.tasks if not t.optional)
         says = [] if done else [last_check(day)]
         own = [one for one in report.series if one.day == day.number]

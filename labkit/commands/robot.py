@@ -49,7 +49,7 @@ def from_official(staging: Path) -> dict[str, Any]:
     cache.root = None  # MENAGERIE_ROOT is our own source 1
     url = f"{cache.base_url}/{robot.asset}"
     probe = [sys.executable, "-c", f"import urllib.request as u; u.urlopen({url!r})"]
-    try:  # in a child, since a look-up that hangs ignores every time-out
+    try:  # a child process is used, since a look-up that hangs ignores every time-out
         subprocess.run(probe, timeout=PROBE_SECONDS, capture_output=True, check=True)
     except subprocess.SubprocessError:
         raise Robo47Error("its server cannot be reached from here") from None
@@ -111,7 +111,8 @@ def fetch(root: Path) -> None:
         Robo47Error: no source answered; nothing was changed.
     """
     root.mkdir(parents=True, exist_ok=True)
-    for left in root.glob(".fetch-*"):  # of a run that was killed: we are alone here
+    # A run that was killed left these; no other run is active.
+    for left in root.glob(".fetch-*"):
         shutil.rmtree(left, ignore_errors=True)
     for name, source in SOURCES.items():
         print(f"robot: asking {name} ...", flush=True)

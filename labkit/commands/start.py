@@ -13,8 +13,8 @@ from labkit.base import cli, store
 from labkit.base.git import GitError
 from labkit.handin.whereabouts import whereabouts
 from labkit.lesson import clash, last_day
+from labkit.lesson.backup import rewrite
 from labkit.lesson.day import Day, chosen_day, find_task
-from labkit.lesson.kept import rewrite
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import put_back, require_kits, starter_of
 from labkit.notebook.sync import bring_saved
@@ -49,7 +49,7 @@ def require_begun(day: Day) -> None:
     A file beside it that has a module's name is told.
     """
     start = f"make start DAY={day.number}"
-    for line in bring_saved(day).told(day):
+    for line in bring_saved(day).sentences(day):
         print(cli.wrapped(line))
     if not day.work.is_file():
         clone = day.folder.parent

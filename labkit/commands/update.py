@@ -19,10 +19,10 @@ from pathlib import Path
 from typing import Any
 
 from labkit.base import cli, processes, store
-from labkit.lesson.kept import free_name
-from labkit.lesson.students_own import is_students
+from labkit.lesson.backup import free_name
+from labkit.lesson.student_files import is_students
 from labkit.update import base, git, last_step, merge
-from labkit.update.git import ask, beside, sweep
+from labkit.update.git import ask, sweep, worktree_at
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
@@ -67,7 +67,7 @@ def update(
         place, commit = merge.fetch(kit, to)
     own = merge.saved_own()
     copies = list[Path]()
-    with cli.busy("merging"), beside(own) as worktree:
+    with cli.busy("merging"), worktree_at(own) as worktree:
         began = base.joined(worktree, own, commit)
         taken = merge.merge(worktree, commit)
         found = renew_labs(worktree, own, commit)

@@ -37,10 +37,10 @@ from robo47.errors import Robo47Error
 from robo47.panda import files
 from robo47.paths import shown
 
-DAYS_OWN = Path("the figure of the day")  # of --screenshot without a file
+DAYS_OWN = Path("the figure of the day")  # the value of --screenshot without a file
 CONFIGURATIONS = ("ready", "home", "zero")
 BARE, FRAMES = "panda_nohand", 40
-REACH_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # of a clip: there and back
+REACH_Q = np.array([0.9, 0.3, -0.4, -1.6, 0.5, 2.2, -0.6])  # the far end of a clip
 # Whether a clip says good news, by their kind.
 GOOD = {"": None, "good": True, "bad": False, "quiet": False}
 

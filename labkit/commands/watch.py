@@ -63,7 +63,7 @@ class Loop:
         self.day = day
         self.only = day.task(only) if only else None
         self.script = file or day.work
-        self.states = {} if file else memory.known(day)
+        self.states = {} if file else memory.task_states(day)
         self.sure = len(self.states) == len(day.tasks)
         self.warm: Process | None = Process()
 
@@ -85,7 +85,7 @@ class Loop:
             id = only.id if only else None
             results = check_tasks(self.day, self.script, sandbox, id)
         self.warm = Process()  # it gets ready while the student types
-        found = {result.task.id: memory.in_words(result.verdict) for result in results}
+        found = {result.task.id: memory.state_of(result.verdict) for result in results}
         if self.script == self.day.work:
             memory.note(results)
             memory.remember(key, results)
@@ -169,7 +169,8 @@ def watch(day: Day, only: str | None, file: Path | None = None) -> int:
                 return cli.EXIT_FAILED if loop.open() else cli.EXIT_OK
             if key:
                 pressed(key, loop, keys)
-                clear = stamps(day, loop.script) == seen  # else what it said is lost
+                # A cleared screen would lose the output of the key.
+                clear = stamps(day, loop.script) == seen
 
 
 def _saved(loop: Loop, keys: Keys, *, clear: bool = True) -> bool:
@@ -181,7 +182,8 @@ def _saved(loop: Loop, keys: Keys, *, clear: bool = True) -> bool:
     try:
         done = _go_on(loop)
         if not done and not loop.only and not loop.sure:
-            with cli.busy("asking the others again"):  # on a terminal, until they are
+            # A terminal shows this while the tasks run.
+            with cli.busy("asking the others again"):
                 loop.check(None)
             loop.sure = True
     except Robo47Error as error:  # a file may be away while an editor saves it
@@ -191,7 +193,7 @@ def _saved(loop: Loop, keys: Keys, *, clear: bool = True) -> bool:
         return True
     if left := loop.open():
         quest = left[0].optional and not loop.only
-        if not quest:  # else the day's end has said it
+        if not quest:  # the end of the day has said it already
             print(f"\n{loop.far()}")
         print(f"\n{'A side quest is left. ' if quest else ''}{loop.shown(left[0])}")
     asked = KEYS if keys.there else "Ctrl-C ends it"
@@ -221,7 +223,7 @@ def _whole_day(loop: Loop) -> bool:
 
     report = check_once(loop.day, loop.script, None, secrets.randbits(32))
     for result in report.tasks:
-        loop.states[result.task.id] = memory.in_words(result.verdict)
+        loop.states[result.task.id] = memory.state_of(result.verdict)
     loop.sure = True
     wrong = any(result in report.left for result in report.counted)
     if wrong or any(item.status == "wrong" for item in report.items):
@@ -305,7 +307,7 @@ def _counted(day: Day) -> Iterator[int]:
     from labkit.check import memory
 
     tasks = [task for task in day.tasks if not task.optional]
-    states = memory.known(day)
+    states = memory.task_states(day)
     yield sum(states.get(task.id) == "passed" for task in tasks)
     yield len(tasks)
 

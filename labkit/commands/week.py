@@ -14,14 +14,14 @@ from labkit.base import cli
 from labkit.base.text import count, number_of
 from labkit.lesson.day import chosen_week, days_of
 from labkit.lesson.writers import writers_of
-from labkit.report.week_labs import Ran, run_labs
+from labkit.report.week_labs import LabResult, run_labs
 
 Line = tuple[str, ...]  # day, whose, check, number, limit, verdict
 HEAD = ("day", "whose", "check", "number", "limit", "")
 NAMED = 30  # columns of a number's name
 
 
-def lines_of(ran: Ran) -> list[Line]:
+def lines_of(ran: LabResult) -> list[Line]:
     """Return a line per number of a day."""
     lines: list[Line] = []
     whose = "yours" if ran.mine else "kit's"

@@ -16,11 +16,11 @@ from labkit.base import processes, store
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
-NAME = "gl_backend.json"  # in the kit's memory
+NAME = "gl_backend.json"  # a file in the kit's store
 RENDERS = "renders"
 LINUX = ("egl", "osmesa", "glfw")  # fastest first; glfw needs a display
 DEBIAN_PACKAGES = {"egl": "libegl1 libgl1", "osmesa": "libosmesa6"}
-# What a failing import or context really says.
+# The meaning of a failing import or context.
 MEANS = {
     "'NoneType' object has no attribute": "its library is not installed",
     "OpenGL platform library has not been loaded": "opens no window: no display?",

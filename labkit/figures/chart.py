@@ -30,7 +30,7 @@ RED = "#D55E00"
 PURPLE, SKY = "#CC79A7", "#56B4E9"
 INK, GREY, RULE = "#212529", "#868e96", "#dee2e6"
 WIDTH = 8.0  # inches
-DPI = 150  # so 1200 pixels
+DPI = 150  # a picture is 1200 pixels wide
 FONT, SMALL = 16.0, 13.5  # points: of nearly all text, and the smallest
 STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -54,7 +54,7 @@ STYLE: Any = {
     "figure.constrained_layout.h_pad": 0.1,  # a title is the lower axes', not a label's
 }
 
-Draw = Callable[..., None]  # of a Figure, and of what the picture shows
+Draw = Callable[..., None]  # it takes a Figure and the picture's data
 
 
 def image_of(figure: Figure) -> Image.Image:

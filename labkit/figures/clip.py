@@ -26,7 +26,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 SIZE = (480, 420)  # pixels, of a clip
-SECONDS = 5.0  # of a clip
+SECONDS = 5.0  # the duration of a clip
 CAMERA = Camera(distance=2.3, lookat=(0.2, 0.0, 0.36))
 LARGEST = 1_000_000  # bytes: what a page shows at once
 PIXELS = 0.75  # each try that is too large is followed by one this much smaller

@@ -16,7 +16,7 @@ X, Y, Z = (255, 94, 87), (70, 201, 98), (96, 156, 255)  # the axes' colours
 INK, LEADER, HALO = (240, 243, 246), (152, 163, 174), (27, 31, 36)  # the room is dark
 SMOOTH = 3  # lines are drawn this many times larger, then shrunk: no jagged edges
 AXIS = 0.115  # metres
-SECOND = 0.7  # of that for a frame on top of another
+SECOND = 0.7  # the length of a second frame at the same place, as a fraction
 
 Pixel = tuple[float, float]
 
@@ -33,7 +33,8 @@ def draw_frames(
         tips = T[:3, 3] + length * T[:3, :3].T
         seen[name] = camera.project(np.vstack([origin, tips]), size)
         layer.triad(seen[name])
-    layer.labels(seen)  # over the triads: a leader ends at its origin
+    # Labels are drawn over the triads, since a leader ends at an origin.
+    layer.labels(seen)
     first, *_, last = [*seen.values()] * 2
     for ends in (first, last):
         layer.letters(ends)

@@ -12,7 +12,7 @@ from robo47 import checks, kinematics, panda, se3
 from robo47.checks import Array
 
 LINKS = [f"link{i}" for i in range(8)]
-SEEN = 1e-6  # of a pose: a link that is off by less would flicker through its ghost
+SEEN = 1e-6  # a link whose pose differs by less would flicker through its ghost
 REACH = 0.12  # metres: how far the arm's shapes go beyond their frames' origins
 OPEN = (0.04, 0.04)  # the fingers of a configuration that is the arm's alone, metres
 # The lessons show the arm from its right, a picture to hand in from its left.

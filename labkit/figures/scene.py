@@ -22,7 +22,7 @@ class Camera:
 
     # The point in the middle of the picture, metres.
     lookat: tuple[float, float, float] = (0.15, 0.0, 0.40)
-    distance: float = 1.85  # from the camera to that point, metres
+    distance: float = 1.85  # the distance of the camera from that point, metres
     # Direction of view about the world's z, radians; 0 looks along x.
     azimuth: float = np.radians(118.0)
     # Direction of view above the horizon, radians; negative looks down.
@@ -90,11 +90,12 @@ class Box:
 class Scene:
     """One picture to draw."""
 
-    # Of the Panda with its hand, (9,), radians and metres; or of `robot`, (nq,).
+    # The configuration of the Panda with its hand, (9,), radians and metres; or that of
+    # `robot`, (nq,).
     qpos: Array
     size: tuple[int, int]  # width and height, pixels
-    camera: Camera = Camera()  # where it is seen from
+    camera: Camera = Camera()  # the camera of the picture
     ghosts: tuple[Ghost, ...] = ()  # translucent copies
     fast: bool = False  # leave out multisampling, shadows and reflections
-    boxes: tuple[Box, ...] = ()  # what else is there
+    boxes: tuple[Box, ...] = ()  # boxes beside the robot
     robot: str = ""  # the path of an MJCF file, instead of the Panda

@@ -5,4 +5,4 @@ missing     what is here and not in that clone
 compare     the clone's numbers beside the committed ones
 """
 
-FRESH = "fresh.json"  # in the memory: what the last one found
+FRESH = "fresh.json"  # the last result, in the kit's store

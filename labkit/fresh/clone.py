@@ -10,7 +10,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root
 
 GIT_SECONDS = 120.0
-# What would lead the clone's Python back to this folder.
+# These variables would lead the clone's Python back to this folder.
 _OURS = ("PYTHONPATH", "VIRTUAL_ENV", "ROBO47_HANDED_ON", "ROBO47_METRICS")
 
 
@@ -68,7 +68,7 @@ def set_up(
         says = " ".join(printed.split())[-400:]
         raise Robo47Error(f"the clone could not be set up: {says}")
     python = str(root / ".venv" / processes.IN_VENV)
-    if not robot.is_dir():  # without a network the embedded twin serves
+    if not robot.is_dir():  # the embedded twin serves where there is no network
         fetch = [python, "scripts/fetch_menagerie.py", "--daily"]
         processes.run_and_tell(fetch, say, env=told, cwd=root)
     return python, environment

@@ -11,14 +11,14 @@ from labkit.handin.handin import read_handin
 from labkit.handin.rows import own_rows
 from labkit.log.rows import Row
 from labkit.report.series import Series, value_of
-from labkit.report.week_labs import Ran
+from labkit.report.week_labs import LabResult
 from robo47.errors import Robo47Error
 
 ROUNDING = 1e-9
 FACTOR = 2.0
 
 
-def faults(ran: Ran, clone: Path) -> list[str]:
+def faults(ran: LabResult, clone: Path) -> list[str]:
     """Return what is not as it was committed, a line each.
 
     Args:

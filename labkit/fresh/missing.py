@@ -9,15 +9,16 @@ from pathlib import Path
 from labkit.base.text import count
 from labkit.fresh.clone import ignored_by, uncommitted
 from labkit.lesson.day import Day
-from labkit.lesson.own_files import helpers_of
-from labkit.lesson.students_own import retrospectives
+from labkit.lesson.student_files import retrospectives
+from labkit.lesson.untrusted_files import helpers_of
 from labkit.lesson.week import WORK
 from labkit.report.week_retro import no_numbers, without_numbers
 from robo47.paths import ROOT
 
 # Two parts at least: "/" alone, or "/s" in a unit, is no path.
 _ABSOLUTE = re.compile(r"(/[\w.-]+){2,}|[A-Za-z]:[\\/]\w|~[/\\]\w|file://")
-_LINKED = re.compile(r"\]\(\s*<?([^)>\s]+)|src=[\"']([^\"']+)")  # in Markdown
+# Links and pictures of Markdown.
+_LINKED = re.compile(r"\]\(\s*<?([^)>\s]+)|src=[\"']([^\"']+)")
 # A line of a template that nobody has replaced, or a cell of a table.
 _ASKS = "What `make fresh` found"
 _BLANK = re.compile(
@@ -81,7 +82,7 @@ def _unfinished(
                 yield name, f"not there; day {day.number} hands it in"
             elif what == "worksheet":
                 yield from _blanks(there[0], name)
-        if day == days[-1]:  # which ends the week
+        if day == days[-1]:  # the last day ends the week
             for diary in retrospectives(day.week, clone):
                 name = diary.relative_to(clone).as_posix()
                 here = root / name if (root / name).is_file() else diary

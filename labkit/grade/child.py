@@ -34,9 +34,9 @@ from labkit.sandbox.sandbox import Sandbox, deadline_of
 from robo47.errors import FaultError
 
 MEMORY = 6 * 1024**3  # bytes of addresses: MuJoCo and NumPy take a third of it
-LINES, LINE = 200, 400  # of a text, and characters of one
+LINES, LINE = 200, 400  # the limits of a text: lines, and characters of a line
 NOTHING_TO_RUN = ("does-not-load", "not-started", ELSEWHERE)
-# What is another at every run would make two grades of the same code differ.
+# Texts that differ at every run would make two grades of the same code differ.
 _ADDRESS = re.compile(r"\b0x[0-9a-fA-F]{6,16}\b")
 _FOLDERS = re.compile(r"robo47-(?:check|grader?)-\w{1,40}[/\\]?")
 
@@ -51,7 +51,8 @@ def main() -> None:
     threading.Thread(target=_end_with_parent, args=(folder,), daemon=True).start()
     while True:
         try:
-            package = pickle.load(sys.stdin.buffer)  # from our own parent
+            # The parent process of the kit wrote this.
+            package = pickle.load(sys.stdin.buffer)
         except EOFError:
             break
         try:
@@ -156,7 +157,7 @@ def _result(day: Day, results: list[TaskResult], items: list[Item]) -> Result:
     refused = [_tidy(what) for one in results for what in one.refused]
     first = results[0].verdict
     told = []
-    for one in results:  # what was measured is told of a wrong answer alone
+    for one in results:  # measured numbers stay with a wrong answer alone
         verdict = replace(one.verdict, measured=()) if one.passed else one.verdict
         told.append(replace(one, printed="", verdict=verdict))
     text = report.as_text(report.Report(day, told, items), explain=True)

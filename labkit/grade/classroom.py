@@ -10,9 +10,9 @@ from tqdm import tqdm
 from labkit.base.git import GitError
 from labkit.base.text import visible
 from labkit.grade import page, similar
-from labkit.grade.course import Course, Graded
+from labkit.grade.course import Course, GradedStudent
 from labkit.grade.engine import Engine, grade_all
-from labkit.grade.journal import Journal, Kept
+from labkit.grade.journal import Journal, StoredResult
 from labkit.grade.package import Package, collect
 from labkit.grade.pull import pull_all
 from labkit.grade.result import FAULT, Result, ungraded
@@ -28,11 +28,11 @@ from robo47.paths import shown
 
 
 @dataclass(frozen=True)
-class Again:
-    """Whose work is graded again though it has not changed; by default nobody's."""
+class Regrading:
+    """The students whose unchanged work is graded again; by default nobody."""
 
     everybody: bool = False
-    folders: Collection[str] = ()  # or theirs, and what the others have stays
+    folders: Collection[str] = ()  # the folders of those who are graded again
 
     def asks_for(self, folder: str) -> bool:
         """Return whether a student's work is."""
@@ -43,14 +43,14 @@ class Again:
 class Classroom:
     """One class on the way to its grades for a day."""
 
-    students: Sequence[Student]  # from the roster
-    day: Day  # from the kit's manifest
+    students: Sequence[Student]  # the students, read from the roster
+    day: Day  # the day, read from the kit's manifest
     journal: Journal  # results so far
     _: KW_ONLY
-    again: Again = Again()
-    frozen: bool = False  # what another version of the kit gave stays
-    keep: str = "last"  # or "best" of all results of somebody
-    # What to add to a student's error, by folder.
+    again: Regrading = Regrading()
+    frozen: bool = False  # results of another version of the kit stay
+    keep: str = "last"  # "last", or "best" of all results of a student
+    # Additions to a student's error, by folder.
     notes: Mapping[str, str] = field(default_factory=dict)
 
     def grade(self, engine: Engine, feedback: Path) -> Course:
@@ -66,7 +66,7 @@ class Classroom:
         Raises:
             Robo47Error: no worker is left, or a file cannot be written.
         """
-        graded: dict[str, Graded] = {}
+        graded: dict[str, GradedStudent] = {}
         runs: dict[str, list[Runs]] = {}
         starter = starter_of(self.day)
         now = 0
@@ -75,7 +75,7 @@ class Classroom:
             found = self._graded(one, package, result)
             text = f"{one.name}\n\n{found.result.text}"
             write(feedback / f"{one.file}.txt", printable(text).encode("utf-8"))
-            # without the text, so that a week takes the memory of a day
+            # The text is left out, so that a week takes the memory of a day.
             result = replace(found.result, text="")
             unseen = tuple(_hidden(package, self.day, result))
             graded[one.folder] = replace(found, result=result, hidden=unseen)
@@ -83,7 +83,7 @@ class Classroom:
 
         def changed() -> Iterator[tuple[Student, Package]]:
             for student in self.students:
-                package, known = self._known(student)
+                package, known = self._stored_result(student)
                 runs[student.folder] = _runs(package, self.day, starter)
                 if known:
                     note(student, package, known)
@@ -98,7 +98,9 @@ class Classroom:
                 note(student, package, result)
         return self._course([graded[one.folder] for one in self.students], runs, now)
 
-    def _known(self, student: Student) -> tuple[Package, Result | FaultError | None]:
+    def _stored_result(
+        self, student: Student
+    ) -> tuple[Package, Result | FaultError | None]:
         """Return what is handed in, and its result; None for who is to be graded."""
         due = self.journal.reference if self.journal.deadline else None
         try:
@@ -112,8 +114,8 @@ class Classroom:
 
     def _graded(
         self, student: Student, package: Package, result: Result | FaultError
-    ) -> Graded:
-        given: Package | Kept = package
+    ) -> GradedStudent:
+        given: Package | StoredResult = package
         fault = isinstance(result, FaultError)
         if isinstance(result, FaultError):  # not kept, so that it is tried again
             result = ungraded(self.day, FAULT.format(visible(result, 200)))
@@ -124,7 +126,7 @@ class Classroom:
         minutes = None
         if given.committed is not None:
             minutes = (self.journal.reference - given.committed) // 60
-        return Graded(
+        return GradedStudent(
             student,
             result,
             commit=given.commit,
@@ -136,7 +138,10 @@ class Classroom:
         )
 
     def _course(
-        self, everybody: Sequence[Graded], runs: Mapping[str, list[Runs]], now: int
+        self,
+        everybody: Sequence[GradedStudent],
+        runs: Mapping[str, list[Runs]],
+        now: int,
     ) -> Course:
         kit = _runs_of_kit(self.day)
         alike = similar.like_the_kit(runs, kit, _runs_of_functions(self.day))

@@ -8,36 +8,37 @@ from labkit.grade.result import UNGRADED, Mark, Result
 from labkit.grade.roster import Student
 from labkit.grade.similar import Group
 from labkit.lesson.day import Day
-from labkit.report.unnamed import UNNAMED
+from labkit.report.generic_verdicts import UNNAMED
 
 UNKNOWN = "unknown"
 
 
 @dataclass(frozen=True)
-class Graded:
+class GradedStudent:
     """One student with all that the table and the page show."""
 
-    student: Student  # from the roster
+    student: Student  # the student, read from the roster
     result: Result  # the grade; without its text, where a class is held
     _: KW_ONLY
     commit: str = ""  # the hash of the last commit, or ""
-    branch: str = ""  # that the clone stands on, or ""
-    # From there to the deadline, by the student's own clock, negative past it; None
-    # without a commit.
+    branch: str = ""  # the branch of the clone, or ""
+    # The time from the commit to the deadline by the student's own clock, negative past
+    # it; None without a commit.
     minutes: int | None = None
-    note: str = ""  # what this run has to add to the result's error, as a failed pull
-    fault: bool = False  # whether this machine failed; the next run grades them
-    hidden: tuple[str, ...] = ()  # what passes and does not show in the file's text
-    late: int | None = None  # how many commits came after the deadline; None without
+    note: str = ""  # an addition to the result's error, as of a failed pull
+    fault: bool = False  # this machine failed; the next run grades the student
+    hidden: tuple[str, ...] = ()  # tasks that pass without showing in the file's text
+    # The number of commits after the deadline; None without one.
+    late: int | None = None
 
     @property
     def error(self) -> str:
-        """Why something could not be graded or updated; "" where all was."""
+        """The reason if something could not be graded or updated, else ""."""
         return "; ".join(filter(None, (self.result.error, self.note)))
 
     @property
     def state(self) -> str:
-        """Where the student is, in a word or three; the pages list them so."""
+        """The student's state in one to three words, as the pages list it."""
         tasks = self.result.tasks
         if any(task.status == UNGRADED for task in tasks):
             return UNGRADED
@@ -65,7 +66,7 @@ class Graded:
         return minutes, -(-minutes // (24 * 60))
 
 
-def percent(*days: Graded) -> str:
+def percent(*days: GradedStudent) -> str:
     """Return the share of a student's tasks that pass, "87.5".
 
     A grade is "" where somebody's work could not be looked at: a learning platform
@@ -81,20 +82,20 @@ def percent(*days: Graded) -> str:
 class Course:
     """A class on one day."""
 
-    day: Day  # from the manifest
-    class_: Sequence[Graded]  # everybody, in the order to show them
+    day: Day  # the day, read from the manifest
+    class_: Sequence[GradedStudent]  # everybody, in the order to show them
     _: KW_ONLY
     alike: Sequence[Group] = ()  # similar submissions, by folder
-    reference: int = 0  # what commit times count to, seconds since 1970
-    deadline: bool = False  # whether that is the deadline
-    seed: int = 0  # of the fresh inputs
-    graded_now: int = 0  # how many results are new
-    outdated: int = 0  # how many another version of the kit had given
-    odd: str = ""  # on lines of the journal that are no result, "" where there are none
+    reference: int = 0  # the time to which commit times count, seconds since 1970
+    deadline: bool = False  # the reference is the deadline
+    seed: int = 0  # the seed of the fresh inputs
+    graded_now: int = 0  # the number of new results
+    outdated: int = 0  # the number of results of another version of the kit
+    odd: str = ""  # a note on lines of the journal that are no result, or ""
 
     @property
     def counts(self) -> Counter[str]:
-        """How many students are in each state."""
+        """The number of students in each state."""
         return Counter(graded.state for graded in self.class_)
 
     def mistakes(self) -> list[tuple[Mark, list[str]]]:
@@ -130,7 +131,7 @@ class Course:
         return roots
 
 
-def by_student(courses: Sequence[Course]) -> list[tuple[Graded, ...]]:
+def by_student(courses: Sequence[Course]) -> list[tuple[GradedStudent, ...]]:
     """Return the days of each student, in the roster's order."""
     return list(zip(*(course.class_ for course in courses), strict=True))
 

@@ -44,8 +44,8 @@ PER_WORKER = 2  # packages under way for each worker: one graded, one waiting
 REACHING = 10.0  # seconds for a Dask scheduler to answer
 PATIENCE = 60.0  # seconds without any worker before giving up
 SILENCE = 900.0  # seconds without any result before giving up on what is under way
-# For one package, beyond its own deadline. The checker keeps that one, so only what it
-# cannot interrupt gets here, or a machine under load.
+# The time of one package beyond its own deadline. The checker keeps the deadline, so
+# only code that it cannot interrupt gets here, or a machine under load.
 BEYOND = 230.0
 LEFT_BEHIND = 86_400  # seconds after which a folder of ours belongs to nobody
 FOLDER = "robo47-grader-"
@@ -79,7 +79,7 @@ class Grader(Child):
         self.folder = tempfile.mkdtemp(prefix=f"{FOLDER}{os.getpid()}_")
         temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self.folder)
         environment = {**os.environ, **temporary, **promised}
-        try:  # in its folder, since MuJoCo writes its warnings there
+        try:  # MuJoCo writes its warnings into the working folder
             super().__init__(
                 "labkit.grade.child", self.folder, cwd=self.folder, env=environment
             )
@@ -188,11 +188,12 @@ def close_graders() -> None:
 
 @dataclass(frozen=True)
 class Engine:
-    """Where packages are graded."""
+    """The workers that grade packages."""
 
     executor: Executor  # runs `grade_package`
-    workers: Callable[[], int]  # how many packages can be graded at the same time now
-    # What a package brings back whose workers all died.
+    # It returns how many packages can be graded at the same time.
+    workers: Callable[[], int]
+    # The error of a package whose workers all died.
     lost: type[BaseException] = FaultError
     needs_wall: bool = False  # nobody spoke for the submissions
 

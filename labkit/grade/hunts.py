@@ -20,14 +20,14 @@ from typing import Any, NamedTuple
 from labkit.base.git import GitError, before, blob, files_of
 from labkit.base.text import count, visible
 from labkit.grade.engine import Engine, grade_package
-from labkit.grade.journal import Journal, Kept
+from labkit.grade.journal import Journal, StoredResult
 from labkit.grade.package import fingerprint
 from labkit.grade.result import FAULT
 from labkit.grade.roster import Student
 from labkit.handin.handin import LIMITS
 from labkit.hunt import tally
 from labkit.hunt.case import FILE, Case, draw, folder_of, parsed, script_of
-from labkit.hunt.verdict import Repaired, is_found, judged
+from labkit.hunt.verdict import Repair, is_found, judged
 from labkit.lesson.day import Day, find_day
 from labkit.log.rows import Row
 from labkit.log.scan import scan_file
@@ -49,7 +49,7 @@ STATES = (FOUND, REPAIRED, NAMED, NOT_FOUND, NO_HUNT, UNGRADED)
 
 
 class Files(NamedTuple):
-    """What a student committed of a hunt; b"" where there is none."""
+    """The committed files of a hunt; b"" for a missing one."""
 
     case: bytes
     script: bytes
@@ -58,24 +58,24 @@ class Files(NamedTuple):
 
 @dataclass(frozen=True)
 class Hunter:
-    """How one student's hunt stands."""
+    """The state of one student's hunt."""
 
     student: Student
     state: str  # one of `STATES`
-    why: str = ""  # of the last two
-    runs: int = 0  # as hunt.json says
+    why: str = ""  # the reason for one of the last two states
+    runs: int = 0  # the number in hunt.json
     checks: int = 0
     suspected: Sequence[tuple[str, str]] = ()  # function, what was expected, in order
     innocent: Sequence[str] = ()  # right functions that were written anew
-    odd: Sequence[str] = ()  # what contradicts the script
-    said: str = ""  # what the checker says of a repair that is not right
+    odd: Sequence[str] = ()  # statements that contradict the script
+    said: str = ""  # the checker's sentence about a wrong repair
     wrong: int = 0  # functions that were right, and suspected or written anew
     fault: bool = False  # this machine failed: it is tried again at the next run
 
 
 @dataclass(frozen=True)
 class Hunt:
-    """What a class was given."""
+    """The hunt of a class."""
 
     day: Day
     level: int
@@ -113,11 +113,11 @@ class HuntPackage:
 
     day: int  # its number
     level: int
-    seed: int  # of the mistake
+    seed: int  # the seed of the mistake
     files: Files
     kit: str  # fingerprint of the kit that collected it
     questions: int  # seed of the fresh inputs, the same for everybody
-    commit: str = ""  # what a journal keeps of a package, and a hunt does not show
+    commit: str = ""  # a journal needs this field; a hunt does not show it
     committed: int | None = None
 
     @property
@@ -148,7 +148,7 @@ class HuntPackage:
 
 
 class HuntJournal(Journal):
-    """What was found of each student, kept as it comes; see `Journal`."""
+    """The result of each student, stored as it arrives; see `Journal`."""
 
     def __init__(
         self, path: Path, hunt: Hunt, deadline: int | None, seed: int | None
@@ -157,16 +157,16 @@ class HuntJournal(Journal):
         about = {"level": hunt.level, "mistake": hunt.seed}
         super().__init__(path, hunt.day, deadline, seed, **about)
 
-    def _told(self, result: dict[str, Any]) -> dict[str, Any]:
+    def _as_json(self, result: dict[str, Any]) -> dict[str, Any]:
         return result
 
-    def _read(self, told: Any) -> dict[str, Any]:
+    def _from_json(self, told: Any) -> dict[str, Any]:
         known = {field.name for field in fields(Hunter)} - {"student", "fault"}
         if told["state"] not in STATES or not set(told) <= known:
             raise ValueError("no result of a hunt")
         return dict(told)
 
-    def _note(self, folder: str, kept: Kept) -> None:
+    def _note(self, folder: str, kept: StoredResult) -> None:
         self._last[folder] = kept
 
 
@@ -184,7 +184,7 @@ def grade(
         engine: where to; it is this machine.
         journal: it knows the deadline and the seed of the fresh inputs.
     """
-    work = partial(_graded, hunt, journal)
+    work = partial(_grade_one, hunt, journal)
     each = zip(students, engine.executor.map(work, students), strict=True)
     for student, (package, found) in each:
         if package and not found.get("fault"):
@@ -192,7 +192,7 @@ def grade(
         yield Hunter(student, **found)
 
 
-def _graded(
+def _grade_one(
     hunt: Hunt, journal: HuntJournal, student: Student
 ) -> tuple[HuntPackage | None, dict[str, Any]]:
     """Return a student's package where it was judged now, and how the hunt stands."""
@@ -215,14 +215,14 @@ def _graded(
 
 def _answer(package: HuntPackage) -> dict[str, Any]:
     hunt = Hunt(find_day(package.day), package.level, package.seed)
-    said, state, why = _said(hunt, package.files)
+    said, state, why = _own_account(hunt, package.files)
     if said is None:
         return {"state": state, "why": why}
     if len(package.files.script) > LIMITS["script"]:
         most = LIMITS["script"] // 1000
         return package.stopped(f"the hunted script is over {most} kB")
     case = hunt.case
-    repaired = _judged(hunt, package.files.script, package.questions)
+    repaired = _verdicts(hunt, package.files.script, package.questions)
     anew = [one.function for one in repaired]
     found = is_found(case, repaired)
     told = said.suspected[:MOST]
@@ -239,14 +239,14 @@ def _answer(package: HuntPackage) -> dict[str, Any]:
         "checks": said.checks,
         "suspected": suspected,
         "innocent": [name for name in anew if name not in case.guilty],
-        "odd": [*unread, *_odd(case, said, rows, found)],
+        "odd": [*unread, *_contradictions(case, said, rows, found)],
         "said": " ".join(f"{r.function}: {r.verdict.message}" for r in bad),
         "wrong": len((names | {*anew}) - case.guilty),
     }
 
 
 @lru_cache(1000)  # scripts that are alike are judged once in a process
-def _judged(hunt: Hunt, script: bytes, questions: int) -> list[Repaired]:
+def _verdicts(hunt: Hunt, script: bytes, questions: int) -> list[Repair]:
     return judged(hunt.case, script, questions, deadline_of(hunt.day))
 
 
@@ -255,7 +255,7 @@ def _bare(error: Exception) -> str:
     return visible(re.sub(r"\S*[/\\]", "", str(error)))
 
 
-def _said(hunt: Hunt, files: Files) -> tuple[Case | None, str, str]:
+def _own_account(hunt: Hunt, files: Files) -> tuple[Case | None, str, str]:
     """Return a student's own word on the hunt; None, a state and why without one."""
     if not files.case:
         return None, NO_HUNT, "no hunt is committed"
@@ -269,7 +269,7 @@ def _said(hunt: Hunt, files: Files) -> tuple[Case | None, str, str]:
     return said, "", ""
 
 
-def _odd(
+def _contradictions(
     case: Case, said: Case, rows: Sequence[Mapping[str, Any]], found: bool
 ) -> Iterator[str]:
     """Yield what a student's own word and the script do not agree on."""

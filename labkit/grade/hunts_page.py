@@ -41,7 +41,7 @@ def render(hunt: Hunt, hunters: Sequence[Hunter]) -> str:
     said = [
         f"{escape(one.function)} <b>{escape(one.slug)}</b>: "
         f"{escape(one.says or 'its numbers say it')}."
-        for one in hunt.case.quarries
+        for one in hunt.case.mistakes
     ]
     about = f"{count(len(hunters), 'student')}; level {hunt.level}, seed {hunt.seed}"
     return html.page(
@@ -53,7 +53,7 @@ def render(hunt: Hunt, hunters: Sequence[Hunter]) -> str:
             f'<div class="card">{"".join(f"<p>{one}</p>" for one in said)}</div>',
         ),
         _suspected(hunt, hunters),
-        _odd(hunters),
+        _contradictions(hunters),
         _everyone(hunters),
         style=STYLE,
     )
@@ -100,7 +100,7 @@ def _suspected(hunt: Hunt, hunters: Sequence[Hunter]) -> str:
     )
 
 
-def _odd(hunters: Sequence[Hunter]) -> str:
+def _contradictions(hunters: Sequence[Hunter]) -> str:
     rows = [
         f'<li><div class="head"><b>{escape(printable(one.student.name))}</b></div>'
         f'<p class="says">{escape("; ".join(one.odd))}</p></li>'

@@ -25,8 +25,8 @@ _LATEST = 4_102_444_800  # the year 2100, in seconds since 1970
 _ODD = (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError)
 
 
-class Keepable(Protocol):
-    """What a journal has to know of a package, of whichever kind."""
+class Storable(Protocol):
+    """The fields of a package, of any kind, that a journal needs."""
 
     @property
     def day(self) -> int:
@@ -49,7 +49,7 @@ class Keepable(Protocol):
         """Its time, seconds since 1970, or None."""
 
 
-class Kept(NamedTuple):
+class StoredResult(NamedTuple):
     """A result, and what of somebody's package and the kit it was given to."""
 
     package: str  # fingerprints
@@ -98,8 +98,8 @@ class Journal:
         self.deadline = False
         self.seed = secrets.randbits(32)
         self.odd = self.outdated = 0
-        self._last: dict[str, Kept] = {}  # by folder
-        self._best: dict[str, Kept] = {}
+        self._last: dict[str, StoredResult] = {}  # the last result by folder
+        self._best: dict[str, StoredResult] = {}
         self._written: dict[str, Any] = {}  # the last header
         try:
             self._file = path.open("a+b")
@@ -126,7 +126,7 @@ class Journal:
         return {"kind": KIND, **about, "seed": self.seed, **since}
 
     def find(
-        self, folder: str, package: Keepable, *, frozen: bool = False
+        self, folder: str, package: Storable, *, frozen: bool = False
     ) -> Any | None:
         """Return a student's result, unless what they hand in, or the kit, has changed.
 
@@ -143,13 +143,13 @@ class Journal:
         self.outdated += 1
         return None
 
-    def best(self, folder: str) -> Kept:
+    def best(self, folder: str) -> StoredResult:
         """Return a student's best result of all that were kept, the last of equals."""
         return self._best[folder]
 
-    def keep(self, folder: str, package: Keepable, result: Any) -> None:
+    def keep(self, folder: str, package: Storable, result: Any) -> None:
         """Write a result and wait until the disk has it."""
-        kept = Kept(
+        kept = StoredResult(
             package=package.fingerprint,
             kit=package.kit,
             commit=package.commit,
@@ -157,17 +157,18 @@ class Journal:
             result=result,
         )
         self._note(folder, kept)
-        told = {**kept._asdict(), "result": self._told(result)}
+        told = {**kept._asdict(), "result": self._as_json(result)}
         self._append({"day": package.day, "folder": folder, **told})
 
-    def _note(self, folder: str, kept: Kept) -> None:
+    def _note(self, folder: str, kept: StoredResult) -> None:
         self._last[folder] = kept
         rival = self._best.get(folder)
         at = kept.committed
         late = self.deadline and at is not None and at > self.reference
         if (
             rival is None
-            or rival.result.seed != kept.result.seed  # which is no longer asked
+            # A result of another seed counts no longer.
+            or rival.result.seed != kept.result.seed
             or (kept.result.score >= rival.result.score and not late)
         ):
             self._best[folder] = kept
@@ -209,7 +210,7 @@ class Journal:
             if record.get("kind") == KIND:
                 self._begin(record)
             else:
-                self._note(record["folder"], self._kept(record))
+                self._note(record["folder"], self._record(record))
         except _ODD:
             self.odd += 1
 
@@ -233,7 +234,7 @@ class Journal:
         self.reference, self.seed = reference, seed
         self._written = self._head()
 
-    def _kept(self, record: dict[str, Any]) -> Kept:
+    def _record(self, record: dict[str, Any]) -> StoredResult:
         words = {name: record[name] for name in ("package", "kit", "commit")}
         if not all(
             isinstance(word, str) for word in (record["folder"], *words.values())
@@ -242,12 +243,14 @@ class Journal:
         at = record["committed"]
         if record["day"] != self._day.number or type(at) not in (int, type(None)):
             raise ValueError(record["day"], at)
-        return Kept(**words, committed=at, result=self._read(record["result"]))
+        return StoredResult(
+            **words, committed=at, result=self._from_json(record["result"])
+        )
 
-    def _told(self, result: Any) -> dict[str, Any]:
+    def _as_json(self, result: Any) -> dict[str, Any]:
         """Return a result as it is written."""
         return asdict(result)
 
-    def _read(self, told: Any) -> Any:
+    def _from_json(self, told: Any) -> Any:
         """Return a result of what was written; one of `_ODD` where it is none."""
         return from_json(told, self._day)

@@ -36,15 +36,15 @@ from labkit.handin.handin import (
 )
 from labkit.handin.whereabouts import whereabouts
 from labkit.lesson.day import Day, find_day
-from labkit.lesson.own_files import HELPERS, NO_NAME
+from labkit.lesson.untrusted_files import HELPERS, NO_NAME
 from robo47 import __version__
 from robo47.paths import ROOT
 
 FOLDER = "robo47-commit-"
 LARGEST = max(LIMITS.values())  # bytes of a file that is looked at
 MOST = 4 * HELPERS  # files beside the script: one blob may have any number of names
-# What decides a grade: the code, the manifests, the solution, what a definition and a
-# drawing must not be. `work/` is somebody's own.
+# These files decide a grade: the code, the manifests, the solution, the templates of
+# definitions and drawings. `work/` is somebody's own.
 _DECIDES = (
     "robo47/**/*.py",
     "labkit/**/*.py",
@@ -72,10 +72,10 @@ class Package:
     # Its time by the student's own clock, seconds since 1970, or None.
     committed: int | None = None
     problem: str = ""  # why there is nothing to grade; "" where there is
-    seed: int = 0  # of the fresh inputs, the same for everybody
+    seed: int = 0  # the seed of the fresh inputs, the same for everybody
     version: str = ""  # the version of the kit that collected it, in words
     branch: str = ""  # the branch that the clone stands on
-    late: int = 0  # how many commits came after the deadline
+    late: int = 0  # the number of commits after the deadline
     elsewhere: str = ""  # a sentence on where the script is, when it is not in place
     clock: str = ""  # the fault of the student's clock; "" if there is none
 

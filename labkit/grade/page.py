@@ -9,10 +9,10 @@ from urllib.parse import quote
 from labkit.base import html
 from labkit.base.text import count, visible
 from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
-from labkit.grade.course import UNKNOWN, Course, Graded, by_student, percent
+from labkit.grade.course import UNKNOWN, Course, GradedStudent, by_student, percent
 from labkit.grade.result import Mark
 from labkit.grade.sheet import printable
-from labkit.report.unnamed import UNNAMED
+from labkit.report.generic_verdicts import UNNAMED
 
 CHARTED = 15  # mistakes in the chart
 COMMON = 3  # mistakes shown per day, the most frequent first
@@ -64,7 +64,7 @@ def render(course: Course) -> str:
         _mistakes(course),
         _standings(course),
         *(_people(course, state) for state in STATES),
-        _alike(course),
+        _similar(course),
         _hidden(course),
         _refused(course),
         _everyone(course),
@@ -177,7 +177,7 @@ def _standings(course: Course) -> str:
 def _people(course: Course, state: str) -> str:
     """Return who is in one state, by mistake, those who have waited longest first."""
 
-    def place(graded: Graded) -> tuple[str, str, int]:
+    def place(graded: GradedStudent) -> tuple[str, str, int]:
         first = graded.result.first_mistake
         what = (first.id, first.mistake) if first else ("", "")
         return (*what, -(10**9 if graded.minutes is None else graded.minutes))
@@ -186,7 +186,7 @@ def _people(course: Course, state: str) -> str:
     return _listed(STATES[state], len(some), list(map(_person, some)))
 
 
-def _person(graded: Graded) -> str:
+def _person(graded: GradedStudent) -> str:
     mistake = graded.result.first_mistake
     badge = ""
     says = graded.error
@@ -225,7 +225,7 @@ def _entry(head: str, says: str = "") -> str:
     return f'<li><div class="head">{head}</div>{words}</li>'
 
 
-def _name(graded: Graded) -> str:
+def _name(graded: GradedStudent) -> str:
     """Return a student's name, which leads to their feedback."""
     student = graded.student
     address = quote(f"feedback/{student.file}.txt".encode())
@@ -236,7 +236,7 @@ def _name(graded: Graded) -> str:
     return f'{name} <span class="muted">{escape(folder)}</span>'
 
 
-def _ago(graded: Graded) -> str:
+def _ago(graded: GradedStudent) -> str:
     if graded.minutes is None:
         return "last commit: a time that cannot be" if graded.commit else "no commit"
     size = abs(graded.minutes)
@@ -247,7 +247,7 @@ def _ago(graded: Graded) -> str:
     return f"last commit {size // length} {unit} {side} {moment}, they say"
 
 
-def _alike(course: Course) -> str:
+def _similar(course: Course) -> str:
     by_folder = {g.student.folder: g for g in course.class_}
     rows = []
     for group in course.alike[:MOST]:
@@ -294,7 +294,7 @@ def _everyone(course: Course) -> str:
     )
 
 
-def _line(graded: Graded) -> str:
+def _line(graded: GradedStudent) -> str:
     result, (late, _) = graded.result, graded.late_by
     cells = [f'<td class="mark">{result.score[0]}/{len(result.tasks)}</td>']
     for mark in (*result.tasks, *result.items):
@@ -369,7 +369,7 @@ def _link(course: Course, what: str = "") -> str:
     return f'<a href="day{number}/class.html">{what}{number}</a>'
 
 
-def _cell(one: Graded) -> str:
+def _cell(one: GradedStudent) -> str:
     passed = one.result.score[0]
     all_ = len(one.result.tasks)
     words = f"{passed} of {all_}" if percent(one) else "?"

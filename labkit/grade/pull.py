@@ -28,7 +28,7 @@ from labkit.grade.roster import Student
 
 AT_ONCE = 8
 SECONDS = 300
-OURS = ".robo47-clones.json"  # beside the clones
+OURS = ".robo47-clones.json"  # a file beside the clones
 HEADS = "refs/heads/"
 SHOWN = 5  # branches that are named
 _NAME = re.compile(r"[^\0-\x20~^:?*\[\\\x7f]+")  # a name that git accepts for a branch
@@ -58,7 +58,7 @@ def pull_all(students: Sequence[Student]) -> Iterator[tuple[Student, str]]:
     if not usable:
         return
     marks = usable[0].path.parent / OURS
-    ours = _read(marks)
+    ours = _marks(marks)
     with ThreadPoolExecutor(AT_ONCE) as pool:
         waiting = {pool.submit(pull, s, ours.get(s.folder)): s for s in usable}
         for future in as_completed(waiting):
@@ -87,7 +87,7 @@ def pull(student: Student, known: str | None) -> tuple[str | None, str]:
         return known, _problem(_update, path)
     if not student.url:
         return known, "there is no such folder, and the roster has no git URL"
-    new = _beside(path)
+    new = _temporary_path(path)
     # the folder may be left from a run that was killed
     problem = _problem(_remove, new)
     if problem := problem or _problem(_clone, new, student.url):
@@ -117,7 +117,7 @@ def _clone(new: Path, url: str) -> None:
     _update(new)
 
 
-def _beside(path: Path) -> Path:
+def _temporary_path(path: Path) -> Path:
     """Return where a clone is made: a name that no student's folder has."""
     return path.with_name(f".{hashlib.sha256(os.fsencode(path.name)).hexdigest()[:16]}")
 
@@ -125,8 +125,8 @@ def _beside(path: Path) -> Path:
 def _move_in(path: Path) -> str:
     """Give a clone that was made beside its name; return what went wrong, or ""."""
     try:
-        if _beside(path).exists():
-            _beside(path).rename(path)
+        if _temporary_path(path).exists():
+            _temporary_path(path).rename(path)
     except OSError as error:
         return f"the new clone cannot be renamed: {error.strerror}"
     return ""
@@ -226,7 +226,7 @@ def _mark(clone: Path) -> str | None:
         return None
 
 
-def _read(marks: Path) -> dict[str, str | None]:
+def _marks(marks: Path) -> dict[str, str | None]:
     try:
         found = json.loads(marks.read_bytes())
         return found if isinstance(found, dict) else {}

@@ -22,7 +22,7 @@ NO_MISTAKES = (
 
 @dataclass(frozen=True)
 class Mark:
-    """How a task or a deliverable stands."""
+    """The result of a task or a deliverable."""
 
     id: str  # "1.4", or "figure"
     status: str  # one of STATUSES
@@ -31,7 +31,7 @@ class Mark:
 
     @property
     def passed(self) -> bool:
-        """Whether nothing is left to do."""
+        """Nothing is left to do."""
         return self.status == "passed"
 
     @property
@@ -41,7 +41,7 @@ class Mark:
 
     @property
     def is_mistake(self) -> bool:
-        """Whether something was written and is not right, or cannot be read."""
+        """The student wrote something that is wrong or cannot be read."""
         return not self.passed and self.mistake not in NO_MISTAKES
 
 
@@ -53,7 +53,7 @@ class Result:
     items: tuple[Mark, ...]  # the deliverables
     text: str = ""  # the text that `make check` would have printed
     error: str = ""  # why something could not be graded; "" where all was
-    # What the code wanted and was refused, though its answers may be right.
+    # Requests of the code that were refused, though its answers may be right.
     refused: tuple[str, ...] = ()
     kit: str = ""  # version of the kit that gave it; "" where nothing was graded
     seed: int = 0  # the seed of its fresh inputs
@@ -70,17 +70,17 @@ class Result:
 
     @property
     def score(self) -> tuple[int, int]:
-        """How many tasks and how many deliverables pass, to compare results by."""
+        """The numbers of tasks and of deliverables that pass, to compare results."""
         return sum(m.passed for m in self.tasks), sum(m.passed for m in self.items)
 
     @property
     def is_elsewhere(self) -> bool:
-        """Whether the script was found where it does not count."""
+        """The script was found in a place where it does not count."""
         return any(task.mistake == ELSEWHERE for task in self.tasks)
 
     @property
     def does_not_load(self) -> bool:
-        """Whether there is a file that Python, or we, cannot read."""
+        """There is a file that Python or the grader cannot read."""
         return any(task.mistake == "does-not-load" for task in self.tasks)
 
 

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from labkit.base import store
 from labkit.base.text import visible
-from labkit.grade.course import UNKNOWN, Course, Graded, by_student, percent
+from labkit.grade.course import UNKNOWN, Course, GradedStudent, by_student, percent
 from labkit.grade.result import Mark
 from labkit.grade.roster import Student
 from robo47.errors import Robo47Error
@@ -31,7 +31,7 @@ Cell = str | int | None
 _SEPARATORS = {"; ": " – ", ";": ",", "|": "¦"}
 
 
-def as_csv(class_: Sequence[Graded]) -> bytes:
+def as_csv(class_: Sequence[GradedStudent]) -> bytes:
     """Return the table of a day.
 
     Args:
@@ -67,7 +67,7 @@ def _csv(rows: Iterable[Iterable[Cell]]) -> bytes:
     return text.getvalue().encode("utf-8-sig")
 
 
-def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
+def nameless(class_: Sequence[GradedStudent], seed: int) -> list[GradedStudent]:
     """Return a class in an order and with names that say nothing of who it is.
 
     Args:
@@ -87,7 +87,7 @@ def nameless(class_: Sequence[Graded], seed: int) -> list[Graded]:
     return sorted(found, key=lambda graded: graded.student.name)
 
 
-def _row(graded: Graded) -> dict[str, Cell]:
+def _row(graded: GradedStudent) -> dict[str, Cell]:
     result = graded.result
     mistake = graded.result.first_mistake or Mark("", "")
     minutes, days = graded.late_by
@@ -114,7 +114,9 @@ def _row(graded: Graded) -> dict[str, Cell]:
     }
 
 
-def _row_of_days(numbers: Sequence[int], class_: Sequence[Graded]) -> dict[str, Cell]:
+def _row_of_days(
+    numbers: Sequence[int], class_: Sequence[GradedStudent]
+) -> dict[str, Cell]:
     days = dict(zip(numbers, class_, strict=True))
     results = [one.result for one in class_]
     errors = [f"day {n}: {one.error}" for n, one in days.items() if one.error]
@@ -141,14 +143,14 @@ def _who(student: Student) -> dict[str, Cell]:
 
 @dataclass(frozen=True)
 class Platform:
-    """What a platform's import asks for."""
+    """The format of a platform's import."""
 
     name: str  # the name that its makers use
-    # Of the file, before the grades, in order; the roster's are called the same, in
-    # letters of any size, or by the other names here.
+    # The columns of the file before the grades, in order. The roster's columns have the
+    # same names, in letters of any size, or the other names here.
     columns: dict[str, tuple[str, ...]]
     known_by: tuple[str, ...]  # the columns that identify a student
-    points: str = ""  # how a row begins that says what a grade is out of, if one does
+    points: str = ""  # the beginning of the row with the most points, if there is one
 
 
 PLATFORMS = {

@@ -44,7 +44,7 @@ _TOKEN = re.compile(
     re.DOTALL,
 )
 _PADDING = (";", "pass")  # may stand anywhere and does nothing
-# What runs a text as code, or leads to what does; some names are handed over as texts.
+# These names run a text as code, or lead to such a name; some are given as texts.
 _RUNS_TEXT = {"exec", "eval", "compile", "builtins", "importlib", "runpy", "codeop"}
 _RUNS_TEXT |= {"InteractiveInterpreter", "InteractiveConsole", "ForwardRef"}
 _RUNS_TEXT |= {"marshal", "pickle", "FunctionType", "CodeType"}
@@ -59,7 +59,8 @@ class Group:
     """Submissions to look at side by side; each is like at least one of the others."""
 
     keys: tuple[str, ...]  # the students' keys, sorted
-    # Of the smaller one's runs that the other has too, 0 to 1, in the most similar two.
+    # The fraction of the smaller one's runs that the other has too, in the most similar
+    # two.
     share: float
     with_kit: bool = False  # one of them is the kit's own solution, which has no key
 

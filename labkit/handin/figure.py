@@ -91,7 +91,8 @@ def read_png(data: bytes) -> NDArray[np.uint8]:
     if data[:8] != _SIGNATURE or len(data) < 33:
         raise FlawError("it is no PNG picture")
     width, height = struct.unpack(">II", data[16:24])
-    if width * height > LARGEST:  # before decoding: a small file can claim any size
+    # A small file can claim any size, so the size is tested first.
+    if width * height > LARGEST:
         raise FlawError(f"it claims {width}x{height} pixels: too many")
     if not _inflates(data, width, height):
         raise FlawError("the PNG is cut off or damaged")

@@ -12,7 +12,14 @@ from urllib.parse import unquote
 
 from labkit.lesson.cells import MOST, lab_from
 from labkit.lesson.day import Day
-from labkit.lesson.own_files import MB, SCRIPT, UnreadError, helpers_of, read, size_of
+from labkit.lesson.untrusted_files import (
+    MB,
+    SCRIPT,
+    UnreadError,
+    helpers_of,
+    read,
+    size_of,
+)
 
 # In bytes.
 LIMITS = {
@@ -34,7 +41,7 @@ _IMAGE = re.compile(
 
 @dataclass(frozen=True)
 class Item:
-    """How one deliverable stands."""
+    """The state of one deliverable."""
 
     name: str  # "figure", "definitions", ...
     # Or "todo" (not there yet), "wrong" (there, but), "unfinished" (right as far as it
@@ -44,13 +51,13 @@ class Item:
 
     @property
     def passed(self) -> bool:
-        """Whether nothing is left to do."""
+        """Nothing is left to do."""
         return self.status in ("passed", "unfinished")
 
 
 @dataclass(frozen=True)
 class Handin:
-    """What a student hands in for a day, by path from the top, with "/" in it."""
+    """A student's hand-in for a day: files by path from the top, with "/"."""
 
     files: Mapping[str, bytes] = field(default_factory=dict)  # their content
     unread: Mapping[str, str] = field(default_factory=dict)  # why not, if it is there

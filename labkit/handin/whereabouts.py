@@ -1,4 +1,4 @@
-"""Where a student's lab is, when it is not where a grader or the student looks for it.
+"""Finds a student's lab in another place than the one where a grader looks for it.
 
 Git is asked for objects and names alone, as `labkit.base.git` does, and of a folder
 the names are read: the clone may be a stranger's.

@@ -17,7 +17,7 @@ FEWEST_ANSWER_WORDS = 4  # "Its own: multiply right." answers a question
 PASTED = {FEWEST_WORDS: 2, FEWEST_ANSWER_WORDS: 3}  # times, by words
 LONGEST = 2000  # characters of a line that are looked at
 
-# What to do about a definition or a drawing, by how it stands.
+# The next action for a definition or a drawing, by its state.
 _DEFINE = {
     "empty": "Still empty: {}.",
     "short": f"Write a whole sentence (at least {FEWEST_WORDS} words): {{}}.",
@@ -66,7 +66,7 @@ def check_worksheet(day: Day, handin: Handin) -> list[Item]:
     except OSError:
         guide = ""
     return [
-        _in_words(sections, day, guide, where),
+        _texts(sections, day, guide, where),
         _drawings(sections, day, handin, where),
     ]
 
@@ -102,7 +102,7 @@ def split_sections(text: str) -> dict[str, str]:
     return {name: "\n".join(lines) for name, lines in sections.items()}
 
 
-def _in_words(sections: dict[str, str], day: Day, guide: str, where: str) -> Item:
+def _texts(sections: dict[str, str], day: Day, guide: str, where: str) -> Item:
     """Check what is written: the definitions, the answers, and then the predictions."""
     given = _shingles(_words(guide))
     texts = {term: sections.get(term.lower(), "") for term in day.terms}
@@ -112,7 +112,7 @@ def _in_words(sections: dict[str, str], day: Day, guide: str, where: str) -> Ite
     open_ones = [i for i, answer in enumerate(answers, start=1) if not answer]
     table = sections.get("predictions", "")
     blank = _blank_cells(table)
-    written = [_words(_written(text)) for text in texts.values()]
+    written = [_words(_without_template(text)) for text in texts.values()]
     if not item.passed:
         return item
     if pasted := _pasted([*written, *answers], _reasons(table)):
@@ -174,7 +174,7 @@ def _answers(section: str, number: int) -> list[list[str]]:
     return (answered + [[]] * number)[:number]
 
 
-def _written(text: str) -> str:
+def _without_template(text: str) -> str:
     """Return a section without the template's own lines."""
     lines = (line for line in text.splitlines() if not _PROMPT.fullmatch(line.strip()))
     return " ".join(lines)
@@ -182,7 +182,7 @@ def _written(text: str) -> str:
 
 def _definition(text: str, given: set[tuple[str, ...]]) -> str:
     """Return how a definition stands: in a sentence, and not in the guide's words."""
-    words = _words(_written(text))
+    words = _words(_without_template(text))
     own = _shingles(words)
     if not words:
         return "empty"

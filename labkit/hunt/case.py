@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from labkit.base import store
-from labkit.hunt.quarry import LEVELS, Quarry, drawn, mark_of, marked
+from labkit.hunt.mistakes import LEVELS, HiddenMistake, mark_of, marked, sample
 from labkit.lesson.day import Day, days_of, find_day
 from labkit.lesson.week import WORK, weeks
 from robo47.errors import Robo47Error
@@ -48,20 +48,20 @@ class Case:
         return find_day(self.day)
 
     @cached_property
-    def quarries(self) -> list[Quarry]:
-        """What is to be found."""
+    def mistakes(self) -> list[HiddenMistake]:
+        """The mistakes that are to be found."""
         if self.marks:
             return marked(self.of_day, self.level, self.seed, self.marks)
-        return drawn(self.of_day, self.level, self.seed)
+        return sample(self.of_day, self.level, self.seed)
 
     @property
     def guilty(self) -> set[str]:
         """The functions that are wrong."""
-        return {one.function for one in self.quarries}
+        return {one.function for one in self.mistakes}
 
     @property
     def named(self) -> bool:
-        """Whether all that is wrong was suspected."""
+        """All wrong functions were suspected."""
         return self.guilty <= {function for function, _ in self.suspected}
 
     @property
@@ -81,10 +81,10 @@ def draw(day: Day, level: int, seed: int, known: list[str]) -> Case:
     """Return a hunt that begins.
 
     Args:
-        day, level, seed: as `quarry.drawn` takes them.
+        day, level, seed: as `mistakes.sample` takes them.
         known: names of mistakes that are not drawn.
     """
-    found = drawn(day, level, seed, known)
+    found = sample(day, level, seed, known)
     return Case(day.number, level, seed, [mark_of(one, level, seed) for one in found])
 
 

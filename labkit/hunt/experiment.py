@@ -85,7 +85,7 @@ def call(case: Case, text: str) -> int:
     return subprocess.run(command, check=False).returncode
 
 
-def beside(expected: str, lines: list[str]) -> str:
+def side_by_side(expected: str, lines: list[str]) -> str:
     """Return what was expected beside what a run says, in 80 columns.
 
     Args:

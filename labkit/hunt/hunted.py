@@ -1,4 +1,4 @@
-"""What a closed function of a hunted script does when it is called.
+"""The calls of closed functions in a hunted script.
 
     from labkit.hunt.hunted import Lab, hunted
     return hunted("mass_matrix", J_space, G, armature)
@@ -18,7 +18,7 @@ from typing import Any
 
 from labkit.base import cli
 from labkit.hunt import case as cases
-from labkit.hunt.seen import attempt
+from labkit.hunt.capstone_trials import attempt
 from labkit.lesson import lab as lessons
 from labkit.lesson.lab_module import load_lab
 from labkit.lesson.metric import Metric
@@ -34,7 +34,7 @@ class Lab(lessons.Lab):
     def __init__(self, file: str, about: str | None) -> None:
         """Read the command line and the day's manifest, as every lab does."""
         super().__init__(file, about)
-        self._quiet: list[bool] = []  # whether each of the checks not shown passed
+        self._quiet: list[bool] = []  # the results of the checks that are not shown
         names = "|".join(name for task in self.day.tasks for name in task.functions)
         self._names = re.compile(rf"\b({names})\b")
 
@@ -98,7 +98,7 @@ class Hunted:
             for task in other.tasks:
                 for name in task.functions:
                     self._owner.setdefault(name, other.number)
-        for one in case.quarries:
+        for one in case.mistakes:
             vars(self._labs[one.day])[one.function] = one.code
         for name, number in self._owner.items():
             own = script.get(name)
@@ -106,7 +106,7 @@ class Hunted:
                 vars(self._labs[number])[name] = own
 
     def capstone(self, script: Mapping[str, Any]) -> int:
-        """Do the week's capstone by the script's functions, and by right ones."""
+        """Run the week's capstone with the script's functions, and with right ones."""
         from labkit.check.own_functions import capstone_of
 
         case = cases.read(Path(script["__file__"]).parent)

@@ -1,4 +1,4 @@
-"""Is it the function that was written anew, and does the repair pass?"""
+"""Verdicts on rewritten functions: the right suspect, and a repair that passes."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -16,15 +16,15 @@ from labkit.lesson.starter import function_lines
 NO_TIME = "Not judged: the functions before it used all the time that a hunt has."
 
 
-class Repaired(NamedTuple):
+class Repair(NamedTuple):
     """A function that was written anew."""
 
     function: str
-    guilty: bool  # whether the mistake is in it
+    guilty: bool  # the mistake is in this function
     verdict: Verdict  # the verdict on the present text
 
 
-def repairs(case: Case) -> list[Repaired]:
+def repairs(case: Case) -> list[Repair]:
     """Return what is said of each function that somebody wrote anew."""
     return judged(case, case.script.read_bytes())
 
@@ -34,7 +34,7 @@ def judged(
     script: bytes,
     seed: int | None = None,
     deadline: Deadline | None = None,
-) -> list[Repaired]:
+) -> list[Repair]:
     """Return what is said of each function that is written anew in a hunted script.
 
     Args:
@@ -49,11 +49,11 @@ def judged(
         names = [name for task in day.tasks for name in task.functions]
         own = opened(text, names)
         for name, verdict in _verdicts(day, own, seed, deadline).items():
-            found.append(Repaired(name, name in case.guilty, verdict))
+            found.append(Repair(name, name in case.guilty, verdict))
     return found
 
 
-def is_found(case: Case, repaired: list[Repaired]) -> bool:
+def is_found(case: Case, repaired: list[Repair]) -> bool:
     """Return whether all that was wrong was repaired."""
     right = {r.function for r in repaired if r.guilty and r.verdict.status == "passed"}
     return right == case.guilty

@@ -7,7 +7,7 @@ browser it comes from, so no lock is needed. What comes in only notes what is wa
 
 import asyncio
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -35,10 +35,7 @@ LOOKS = 0.05  # seconds between looks at the student's file
 DRAG = 0.7  # seconds between moves that count as one
 STEPS = 100  # how many moves can be undone
 LAST = 1e15  # below whatever a tab adds
-COLOURS = {
-    "MuJoCo": (122, 125, 135), "YOURS agrees": (87, 158, 133),
-    "YOURS, where not": GHOST_COLOUR,
-}  # fmt: skip
+COLOURS = {"MuJoCo": (236, 239, 243), "YOURS, where it differs": GHOST_COLOUR}
 
 
 class Inspector:
@@ -74,7 +71,8 @@ class Inspector:
         self.seen = asked(day.ghost)
         self.asks, self.checks = Jobs(), Jobs()
         self.lay_out(server.gui, about)
-        self.scene, self.pointed = ArmScene(server, arm), Pointed(server, arm)
+        self.scene = ArmScene(server, arm)
+        self.pointed = Pointed(server, arm, self.look)
         # The day's own come first, and the first of them is open.
         self.kinds = {kind.title: kind for kind in day.tabs}
         for kind in (Joints, Chain, Tasks):
@@ -95,7 +93,7 @@ class Inspector:
         self.frame = gui.add_dropdown("Frame", tuple(self.arm.names))
         self.proof, self.limits = gui.add_html(""), gui.add_html("")
         self.legend = gui.add_html("", order=LAST)
-        self.solid = gui.add_checkbox("solid arm", False, order=LAST + 1e9)
+        self.solid = gui.add_checkbox("solid arm", True, order=LAST + 1e9)
         gui.add_html(words.line(about, "about", "quiet"), order=LAST + 2e9)
         self.fixed = set(self.widgets())
 
@@ -147,15 +145,17 @@ class Inspector:
                 self.pointed.show()
             self.show()
 
-    def dress(self, model: mujoco.MjModel, meshes: list[Shape], ghosts: bool) -> None:
-        """Put the meshes of the arm's model on it, and on the ghosts, too."""
+    def dress(
+        self, model: mujoco.MjModel, meshes: list[Shape], ghosts: Sequence[Shape] = ()
+    ) -> None:
+        """Put the meshes of the arm's model on it, and those for ghosts on these."""
         with self.server.atomic():
             self.scene.dress(meshes, ghosts)
             self.look()
             self.pointed.watch(model)
             if ghosts and self.page is not None:
                 # Not opened anew: somebody may have a slider of it in hand.
-                self.page.draw.dress(meshes)
+                self.page.draw.dress(ghosts)
                 self.tell(self.arm.q)
 
     def show(self) -> None:
@@ -174,8 +174,8 @@ class Inspector:
         self.state.content = words.state(self.address, self.heard_words)
 
     def look(self) -> None:
-        """Make the arm solid, or see-through and green where the student's agrees."""
-        self.scene.look(self.solid.value, self.seen.kind == "good")
+        """Make the arm solid, or see-through: as it was asked, or to show an axis."""
+        self.scene.look(self.solid.value and not self.pointed.body)
 
     def first(self) -> str:
         """Return what to show before viser does, as HTML."""
@@ -240,6 +240,8 @@ class Inspector:
             self.scene.trace(())
             self.scene.look_from(kind.camera)
             self.kind = kind
+            self.solid.value = kind.solid  # type: ignore[misc]
+            self.look()
             self.page = page = Page(self, Sketch(self.server, self.scene.coarse))
             page.legend(COLOURS if self.day.ghost else {})
             self.tab = Tab(page)
@@ -341,7 +343,6 @@ class Inspector:
         with self.server.atomic():
             self.show()  # first: a page that is behind has the words before the arms
             self.scene.show_ghost(self.seen.drawn, end)
-            self.look()
 
     def judge(self, version: int, found: Standing) -> None:
         """Show how a file's tasks stand, unless it was saved again meanwhile."""

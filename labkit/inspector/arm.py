@@ -4,6 +4,7 @@ Nothing here draws. MuJoCo's poses come from `robo47.verify`, the library's from
 `robo47.kinematics`; the student's own are in `labkit.inspector.ghost`. Metres, radians.
 """
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import mujoco
@@ -76,6 +77,24 @@ class Arm:
         """Return MuJoCo's poses at a configuration, (nq,), as {short name: (4, 4)}."""
         poses = mujoco_poses(self.model, np.asarray(q)[None])
         return {name: poses[full][0] for name, full in self.names.items()}
+
+    def carried(self, poses: Mapping[str, Array]) -> dict[str, Array]:
+        """Return poses of links, and those of the bodies that the last of them carries.
+
+        A hand and its fingers stay where they are on it.
+        """
+        moved = [link.name for link in self.chain.links if link.joints]
+        tip = moved[-1].removeprefix("body:")
+        if tip not in poses:
+            return dict(poses)
+        move = poses[tip] @ np.linalg.inv(self.pose(tip))
+        after = {self.model.body(tip).id}
+        for body in range(self.model.nbody):
+            if self.model.body_parentid[body] in after:
+                after.add(body)
+        names = [self.model.body(body).name for body in after]
+        there = {name: move @ self.by_mujoco[f"body:{name}"] for name in names}
+        return there | dict(poses)
 
     def random_q(self, seed: int) -> Array:
         """Return a configuration within the limits, to the sliders' four decimals."""

@@ -4,6 +4,8 @@ import math
 import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from types import SimpleNamespace
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -12,6 +14,7 @@ import viser
 from labkit.check.tasks import TaskResult
 from labkit.inspector import typed, words
 from labkit.inspector.arm import Step
+from labkit.inspector.declared import Declared, buttons, panel
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
 from labkit.judge.mistake import Verdict
@@ -102,59 +105,68 @@ class Joints(Tab):
         return np.allclose(said, q, rtol=0.0, atol=1e-9)
 
 
-class Chain(Tab):
+class Chain(Declared):
     """The chain's product, one factor at a time, one more frame lit."""
 
     title = "Chain"
-    wide = True  # three matrices of its own
+    hz = 1 / SECONDS_PER_STEP
+    does = buttons(BACK, NEXT, PLAY, then="press")
+    product = panel.html()
 
-    def __init__(self, page: Page) -> None:
-        super().__init__(page)
-        steps = page.arm.steps()
-        self.at = next(i for i, step in enumerate(steps) if step.joint)
-        self.buttons = page.buttons([BACK, NEXT, PLAY], self.press)
-        self.playing = page.animate(self.play, 1 / SECONDS_PER_STEP)
-        self.product = page.html()
-        places = [page.arm.joints.index(step.joint) for step in steps if step.joint]
-        self.sliders = {i: joint_slider(page, i, "rad") for i in places}
+    def prepare(self) -> None:
+        """Begin at the first joint, with a slider for each."""
+        steps = self.page.arm.steps()
+        self.step = next(i for i, step in enumerate(steps) if step.joint)
+        joints = self.page.arm.joints
+        places = [joints.index(step.joint) for step in steps if step.joint]
+        self.sliders = {i: joint_slider(self.page, i, "rad") for i in places}
 
-    def press(self, name: str) -> None:
+    def begin(self) -> None:
+        """Nothing plays by itself."""
+
+    def press(self) -> None:
         """Go one factor back or on, or play them all."""
-        if name == PLAY:
-            self.playing.toggle()
+        if self.does == PLAY:
+            self.loop.toggle()
         else:
-            self.playing.stop()
-            self.go(self.at + (1 if name == NEXT else -1))
+            self.loop.stop()
+            self.go(self.step + (1 if self.does == NEXT else -1))
 
-    def play(self, seconds: float) -> bool:
+    def frame(self, seconds: float) -> bool:
         """Show the next factor; return whether there is one more."""
         self.go(round(seconds / SECONDS_PER_STEP))
-        return self.at < len(self.page.arm.steps()) - 1
+        return self.step < len(self.page.arm.steps()) - 1
 
-    def go(self, at: int) -> None:
+    def go(self, step: int) -> None:
         """Show a factor by its place in the product."""
-        self.at = min(max(at, 0), len(self.page.arm.steps()) - 1)
-        self.on_move(self.page.q)
+        self.step = min(max(step, 0), len(self.page.arm.steps()) - 1)
+        self.request()
 
-    def on_move(self, q: Array) -> None:
-        """Show the factor in the arm's present configuration."""
-        self.show(self.page.arm.steps(), "the library")
+    def ask(self, fns: Any, at: SimpleNamespace) -> list[Step]:
+        """Return the factors in the arm's configuration."""
+        return self.page.arm.steps()
 
-    def show(self, steps: Sequence[Step], whose: str) -> None:
-        """Show the factor among the steps, and whose they are."""
-        this = steps[self.at]
-        done = steps[: self.at + 1]
-        whole = len(done) == len(steps) or steps[self.at + 1].link != this.link
-        says = says_of(this, self.at + 1, len(steps), whole)
+    def show(self, yours: list[Step], right: list[Step]) -> None:
+        """Show the factor, and draw the way to it."""
+        this = yours[self.step]
+        done = yours[: self.step + 1]
+        whole = len(done) == len(yours) or yours[self.step + 1].link != this.link
+        says = says_of(this, self.step + 1, len(yours), whole)
         if whole:  # every factor of this link is in: MuJoCo has that pose, too
             apart = self.page.arm.difference(this.link, this.after)
-            says += words.verdict(apart, whose)
+            theirs = bool(self.functions) and self.kind_of(" ".join(self.functions))
+            says += words.verdict(apart, "yours" if theirs else "the library")
         self.product.content = says
         for i, slider in self.sliders.items():
             slider.visible = self.page.arm.joints[i] == this.joint
             slider.value = float(self.page.arm.q[i])  # type: ignore[misc]
         self.page.light(this.link, {step.link for step in done})
         self.page.host.scene.trace([step.after[:3, 3] for step in done])
+
+    def lost(self) -> None:
+        """Show no factors, and no way through them."""
+        super().lost()
+        self.page.host.scene.trace(())
 
 
 def says_of(this: Step, number: int, of: int, whole: bool) -> str:

@@ -14,7 +14,7 @@ import viser
 from numpy.typing import ArrayLike, NDArray
 
 from labkit.inspector.meshes import NUMBERS, Skin, place
-from labkit.inspector.shapes import Shape
+from labkit.inspector.shapes import LARGER, Shape
 from robo47 import se3
 from robo47.checks import Array
 
@@ -27,16 +27,16 @@ PLAIN, CHOSEN = 0.10, 0.17  # metres of an axis
 AXES = np.stack([np.zeros((3, 3)), np.eye(3)], axis=1).astype(np.float32)
 # Told apart by lightness as well as by hue (Okabe and Ito, 2008).
 COLOURS = {
-    "x": (222, 70, 20),
-    "y": (0, 158, 115),
-    "z": (20, 100, 230),
-    "orange": (230, 159, 0),
-    "red": (190, 30, 45),
-    "blue": (0, 90, 180),
-    "green": (0, 120, 90),
-    "purple": (150, 70, 150),
-    "grey": (110, 118, 128),
-    "black": (30, 34, 40),
+    "x": (228, 84, 34),
+    "y": (0, 170, 124),
+    "z": (58, 128, 240),
+    "orange": (240, 168, 20),
+    "red": (232, 64, 58),
+    "blue": (70, 145, 235),
+    "green": (0, 178, 132),
+    "purple": (188, 84, 212),
+    "grey": (150, 158, 168),
+    "white": (236, 239, 243),
 }
 Points = NDArray[np.float32]
 Colour = str | tuple[int, int, int]
@@ -73,7 +73,7 @@ class Sketch:
         )  # fmt: skip
 
     def lines(
-        self, points: ArrayLike, colour: Colour = "black", width: float = 2.5
+        self, points: ArrayLike, colour: Colour = "white", width: float = 2.5
     ) -> viser.LineSegmentsHandle:
         """Draw line segments by their ends, (n, 2, 3); the width is in pixels."""
         return self.server.scene.add_line_segments(
@@ -82,7 +82,7 @@ class Sketch:
         )  # fmt: skip
 
     def curve(
-        self, points: ArrayLike, colour: Colour = "black", width: float = 2.5
+        self, points: ArrayLike, colour: Colour = "white", width: float = 2.5
     ) -> viser.LineSegmentsHandle:
         """Draw a line through points, (n, 3); see `lines` and `joined`."""
         return self.lines(joined(points), colour, width)
@@ -95,6 +95,15 @@ class Sketch:
             self.path(), radius, rgb(colour), opacity=opacity,
             position=np.asarray(at, dtype=np.float64),
         )  # fmt: skip
+
+    def box(
+        self, half: ArrayLike, colour: Colour = "grey", opacity: float | None = None
+    ) -> viser.BoxHandle:
+        """Draw a solid box by its half sides, metres, (3,); `place` moves it."""
+        x, y, z = (2.0 * float(side) for side in np.asarray(half))
+        return self.server.scene.add_box(
+            self.path(), rgb(colour), (x, y, z), opacity=opacity
+        )
 
     def ellipsoid(self, colour: Colour = "purple", opacity: float = 0.4) -> "Ellipsoid":
         """Draw an ellipsoid; `show(matrix, at, scale)` gives it its shape."""
@@ -124,7 +133,8 @@ class Sketch:
 
     def ghost(self, colour: Colour = "blue", opacity: float = 0.4) -> Skin:
         """Draw another arm; `pose({body: T_world_body})` puts its links somewhere."""
-        skin = Skin(self.server, self.path(), rgb(colour), opacity)
+        by = LARGER * (len(self.ghosts) + 1)
+        skin = Skin(self.server, self.path(), rgb(colour), opacity, by)
         skin.put_on(self.coarse)
         self.ghosts.append(skin)
         return skin
@@ -179,6 +189,15 @@ class Ellipsoid:
     """The points p with p^T A^-1 p = 1, around a point."""
 
     ball: viser.IcosphereHandle  # a ball of radius 1, which is scaled
+
+    @property
+    def visible(self) -> bool:
+        """Whether it is drawn."""
+        return self.ball.visible
+
+    @visible.setter
+    def visible(self, shown: bool) -> None:
+        self.ball.visible = shown
 
     def show(self, A: ArrayLike, at: ArrayLike, scale: float = 1.0) -> None:
         """Give it its shape.
@@ -253,6 +272,15 @@ class Triad:
         """Move it to a pose, (4, 4)."""
         place(self.frame, T)
 
+    @property
+    def visible(self) -> bool:
+        """Whether it is drawn."""
+        return self.frame.visible
+
+    @visible.setter
+    def visible(self, shown: bool) -> None:
+        self.show(shown, self.state is not None and self.state[1])
+
     def labels_at(self, T: Array) -> Array:
         """Return where its name and its letters are with the frame at T, (4, 3)."""
         length = CHOSEN if self.state and self.state[1] else PLAIN
@@ -265,10 +293,10 @@ class Triad:
         self._write()
 
     def _write(self) -> None:
-        """Show the name, and letters where it has them."""
+        """Show the name, and letters where it has them: few of all frames do."""
         letters = self.always or (self.state is not None and self.state[1])
         if self.text is not None:
-            self.text.visible = not self.taken[0]
+            self.text.visible = letters and not self.taken[0]
         for letter, taken in zip(self.letters, self.taken[1:], strict=True):
             letter.visible = letters and not taken
 

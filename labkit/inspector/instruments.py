@@ -86,13 +86,18 @@ class Plot:
         y: str,
         height: int,
         least: float,
+        below: int = 0,
     ) -> None:
         """Start empty; see `Page.plot`."""
         self.count = len(curves)
         self.least = least
         self.points: list[list[float]] = []
         series = [uplot.Series(label=x)] + [
-            uplot.Series(label=name, stroke=STROKES[i % len(STROKES)], width=2)
+            uplot.Series(
+                label=name,
+                stroke=STROKES[i % len(STROKES)],
+                width=6 if i < below else 2,
+            )
             for i, name in enumerate(curves)
         ]
         empty = tuple(np.full(1, least) for _ in series)

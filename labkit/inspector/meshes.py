@@ -10,7 +10,7 @@ import viser
 from numpy.typing import ArrayLike
 
 from labkit.inspector.ghost import nearest_pose
-from labkit.inspector.shapes import Shape
+from labkit.inspector.shapes import Shape, larger
 from robo47 import se3
 from robo47.checks import Array
 
@@ -36,9 +36,21 @@ class Skin:
     path: str
     colour: tuple[int, int, int] | None = None  # None: the meshes have their own
     opacity: float | None = None  # None: they are solid
+    by: float = 0.0  # metres by which they are larger, see `larger`
     bodies: dict[str, viser.FrameHandle] = field(default_factory=dict)
     meshes: list[tuple[viser.MeshHandle, Shape]] = field(default_factory=list)
     posed: Mapping[str, Array | None] = field(default_factory=dict)
+    hidden: bool = False
+
+    @property
+    def visible(self) -> bool:
+        """Whether it is drawn, where it has a pose."""
+        return not self.hidden
+
+    @visible.setter
+    def visible(self, shown: bool) -> None:
+        self.hidden = not shown
+        self.pose(self.posed)
 
     def put_on(self, made: Sequence[Shape]) -> None:
         """Replace its meshes."""
@@ -49,6 +61,7 @@ class Skin:
             path = f"{self.path}/{shape.body}"
             if shape.body not in self.bodies:
                 self.bodies[shape.body] = scene.add_frame(path, show_axes=False)
+            shape = larger(shape, self.by) if self.by else shape
             mesh = scene.add_mesh_simple(
                 f"{path}/{next(NUMBERS)}", shape.vertices.astype(np.float32),
                 shape.faces, color=self.colour or _rgb(shape), opacity=self.opacity,
@@ -62,7 +75,7 @@ class Skin:
         """Move its bodies, {body: T_world_body (4, 4)}; no pose hides one."""
         self.posed = poses
         for name, body in self.bodies.items():
-            T = poses.get(name)
+            T = None if self.hidden else poses.get(name)
             body.visible = T is not None
             if T is not None:
                 place(body, T)
@@ -80,7 +93,7 @@ class Skin:
             for name, body in found.items()
         }
 
-    def look(self, opacity: float | None, shade: Rgb = AS_IS) -> None:
+    def look(self, opacity: float | None = None, shade: Rgb = AS_IS) -> None:
         """Make it see-through, or solid, and darker: the shade multiplies (r, g, b)."""
         for mesh, shape in self.meshes:
             mesh.color = _rgb(shape, shade)

@@ -45,6 +45,22 @@ class Told(NamedTuple):
     other: dict[str, str]  # functions that the tab found to be wrong, and how
 
 
+class Library:
+    """The reference of the same names, asked in the same way as `Own`."""
+
+    def __init__(self, library: Any) -> None:
+        """Take a module, or {name: function}."""
+        self._library = library if isinstance(library, Mapping) else vars(library)
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        """Return a function by its name."""
+        return self._library[name]
+
+    def many(self, *calls: Call) -> list[Any]:
+        """Return the answers to several calls (name, argument, ...)."""
+        return [self._library[name](*args) for name, *args in calls]
+
+
 class Own:
     """The functions of one day's file, and how they compare with the library's."""
 
@@ -176,6 +192,16 @@ class Own:
     def fresh(self) -> bool:
         """Return whether the file that is there has been asked."""
         return self.version in self._told and not self._student.saved()
+
+    def kind(self, names: Collection[str]) -> str:
+        """Return whether functions agree with the library's: "good", "bad", or "".
+
+        "" is said where the library answered for one of them, or none was asked.
+        """
+        told = self._told.get(self.version, Told({}, {}, {}, {}))
+        if any(told.apart.get(n) or told.other.get(n) or n in told.none for n in names):
+            return "bad"
+        return "good" if set(names) <= {*told.apart} - {*told.lent} else ""
 
     def says(self) -> tuple[str, str]:
         """Return whose functions were at work, and how they compare; its kind."""

@@ -17,6 +17,7 @@ from labkit.inspector.arm import Arm
 from labkit.inspector.draw import Colour, Sketch, rgb
 from labkit.inspector.instruments import Bars, Plot, as_bytes
 from labkit.inspector.own import NoAnswerError, Own
+from labkit.inspector.robot import Load, Robot
 from labkit.inspector.scene import ArmScene
 from labkit.inspector.student import Student
 from robo47.checks import Array
@@ -92,11 +93,12 @@ class Page:
         return self.arm.pose(name)
 
     def links(self, q: ArrayLike) -> dict[str, Array]:
-        """Return where every link is at q, (7,), for a ghost's `pose`."""
+        """Return where every body is at q, (7,), for a ghost's `pose`."""
         whole = self.q
         whole[: len(np.asarray(q))] = q  # fingers stay as they are
         poses = self.arm.poses_at(whole)
-        return {name: T for name, T in poses.items() if name.startswith("link")}
+        links = {name: T for name, T in poses.items() if name.startswith("link")}
+        return self.arm.carried(links)
 
     def move(self, q: ArrayLike) -> None:
         """Move the arm, in every browser; q in radians and metres, (nq,)."""
@@ -116,10 +118,19 @@ class Page:
         self.host.scene.hide()
         self.host.solid.visible = False
 
+    def robot(self, bare: Load, dressed: Load) -> Robot:
+        """Draw a scene of MuJoCo's in place of the arm, by its loaders; see `Robot`."""
+        return Robot(self, bare(), dressed)
+
     def legend(self, colours: Mapping[str, Colour]) -> None:
         """Say at the panel's end what colours mean: {what is drawn: its colour}."""
         told = {what: rgb(colour) for what, colour in colours.items()}
         self.host.legend.content = words.legend(told)
+
+    def key(self, colours: Mapping[str, Colour]) -> viser.GuiHtmlHandle:
+        """Add what the colours of a picture mean, directly below it."""
+        told = {what: rgb(colour) for what, colour in colours.items()}
+        return self.html(words.legend(told))
 
     # The student's functions, and what takes time
 
@@ -321,6 +332,7 @@ class Page:
         y: str = "",
         height: int = 150,
         least: float = 0,
+        below: int = 0,
     ) -> Plot:
         """Add a plot; `show(x, ys)` or `add(x, values)` fills it.
 
@@ -330,8 +342,9 @@ class Page:
             y: the title: what is drawn, with its unit.
             height: pixels.
             least: the lowest value of a logarithmic axis; 0 for a plain one.
+            below: so many of the first curves are wide: an equal one on them is seen.
         """
-        return Plot(self.gui, curves, x, y, height, least)
+        return Plot(self.gui, curves, x, y, height, least, below)
 
     def image(self, picture: Array, title: str = "") -> viser.GuiImageHandle:
         """Add an image; setting `image` to what `as_bytes` makes of one changes it.

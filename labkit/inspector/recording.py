@@ -17,13 +17,12 @@ from numpy.typing import ArrayLike
 from labkit.inspector.draw import Sketch
 from labkit.inspector.guard import LocalServer
 from labkit.inspector.meshes import Skin
-from labkit.inspector.scene import DARK, set_stage
-from labkit.inspector.shapes import shapes, thinned
+from labkit.inspector.scene import set_stage
+from labkit.inspector.shapes import GRID, shapes, thinned
 from robo47 import se3
 from robo47.checks import Array
 
 FRAMES = 30  # a second
-GRID = 1 / 256  # m; with the robot's own meshes a file would have 3 MB
 OVER = (0.0, 0.0, 0.98)  # m: where words stand
 # Out of sight. What is hidden instead would stay so when the film begins again.
 AWAY = se3.make_T(np.eye(3), [0.0, 0.0, -50.0])
@@ -42,7 +41,7 @@ class Recording:
         self.model = model
         self.data = mujoco.MjData(model)
         self.server = LocalServer(0)
-        set_stage(self.server, DARK)
+        set_stage(self.server)
         camera = self.server.initial_camera
         position = LOOK_AT + back * np.subtract(CAMERA, LOOK_AT)
         (camera.position, camera.look_at), camera.fov = (position, LOOK_AT), FOV

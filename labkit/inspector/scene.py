@@ -6,8 +6,7 @@ collides with, then those that one looks at. Metres.
 
 import asyncio
 import contextlib
-from collections.abc import Collection, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 import mujoco
 import numpy as np
@@ -17,38 +16,26 @@ from numpy.typing import ArrayLike
 from labkit.inspector.arm import Arm
 from labkit.inspector.draw import Anchor, Sketch, Triad, joined
 from labkit.inspector.meshes import Skin
-from labkit.inspector.shapes import COLLISION_GROUPS, VISIBLE_GROUPS, Shape
+from labkit.inspector.shapes import COLLISION_GROUPS, LARGER, VISIBLE_GROUPS, Shape
 from robo47.checks import Array
 
 View = tuple[tuple[float, float, float], tuple[float, float, float]]
 FOV = 0.72  # vertical, radians
-# For a page that is higher than wide: from further away, the arm above the panel.
-PHONE: View = ((2.1, -1.82, 0.8), (0.15, 0.0, -0.2))
+# A page that is higher than wide: from so much further away, and so much of its height
+# above the middle, since panel and verdict cover the rest.
+BACK, ABOVE = 1.9, 0.33
+BESIDE = 0.25  # of the height: how far the panel has moved the middle to the side
 CONNECTED = 0.3  # seconds until viser's own first camera has been set
 # Neighbours whose origins coincide (links 1 and 2, 5 and 6) have labels on two sides.
 ANCHORS: tuple[Anchor, ...] = ("bottom-left", "center-left", "top-right", "bottom-left")
 SEE_THROUGH = 0.5  # opacity
-# What a see-through arm's colours are multiplied by: white would vanish before the
-# backdrop; it turns green where the student's own code puts every link.
-GREY, GREEN = (0.48, 0.49, 0.53), (0.34, 0.62, 0.5)
+GREY = (0.48, 0.49, 0.53)  # what a see-through arm's colours are multiplied by
 HIGHLIGHT = (255, 176, 0)
 GHOST_COLOUR = (214, 40, 40)
 AXIS = 0.3  # metres of a joint's axis, to both sides
 SHORT, FAR = 1e-6, 1e6  # metres of a ray
-Colour = tuple[int, int, int]
-
-
-class Stage(NamedTuple):
-    """The colours of the backdrop, and of the floor's lines."""
-
-    backdrop: Colour
-    cell: Colour
-    section: Colour
-
-
-LIGHT = Stage((226, 230, 236), (180, 187, 196), (140, 140, 140))
-# the colours of the drawn pictures
-DARK = Stage((27, 31, 36), (52, 58, 66), (72, 80, 90))
+# The stage, in the colours of the drawn pictures: its ground, and the floor's lines.
+STAGE, CELL, SECTION = (27, 31, 36), (52, 58, 66), (72, 80, 90)
 
 
 class ArmScene:
@@ -59,7 +46,7 @@ class ArmScene:
         self.arm = arm
         self.server = server
         self.hidden = False
-        self.view: View = PHONE
+        self.view: View | None = None
         set_stage(server)
 
         @server.on_client_connect
@@ -71,9 +58,9 @@ class ArmScene:
             name: Triad(server, f"/frames/{name}", name, ANCHORS[i % len(ANCHORS)])
             for i, name in enumerate(arm.names)
         }
-        self.world = Triad(server, "/frames/world", "world", "top-right", letters=True)
+        self.world = Triad(server, "/frames/world", "")
         self.skin = Skin(server, "/arm")
-        self.ghost = Skin(server, "/yours", GHOST_COLOUR, 0.6)
+        self.ghost = Skin(server, "/yours", GHOST_COLOUR, 0.6, LARGER)
         self.yours = Triad(server, "/yours_end", "yours", letters=True)
         self.yours.show(visible=False, chosen=True)
         draw = Sketch(server, root="/lines")
@@ -81,15 +68,18 @@ class ArmScene:
         self.way = draw.lines(nowhere, HIGHLIGHT)
         self.gap = draw.lines(nowhere, GHOST_COLOUR)
         self.way.visible = self.gap.visible = False
-        self.coarse: list[Shape] = []
+        self.worn: Sequence[Shape] = ()
+        self.coarse: Sequence[Shape] = ()
         self.update()
 
-    def dress(self, shapes: list[Shape], ghosts: bool = False) -> None:
-        """Put meshes on the arm, and on the ghosts, too."""
-        self.skin.put_on(shapes)
+    def dress(self, shapes: Sequence[Shape], ghosts: Sequence[Shape] = ()) -> None:
+        """Put meshes on the arm, and others on the ghosts."""
+        if self.worn is not shapes:
+            self.worn = shapes
+            self.skin.put_on(shapes)
         if ghosts:
-            self.coarse = shapes
-            self.ghost.put_on(shapes)
+            self.coarse = ghosts
+            self.ghost.put_on(ghosts)
         self.update()
 
     def update(self) -> None:
@@ -119,12 +109,13 @@ class ArmScene:
     def _welcome(self, client: viser.ClientHandle) -> None:
         """Give a browser its camera."""
         with contextlib.suppress(Exception):  # it has told nothing of its size yet
-            view = PHONE if client.camera.aspect < 1.0 else self.view
+            assert self.view is not None
+            view = narrow(self.view) if client.camera.aspect < 1.0 else self.view
             client.camera.position, client.camera.look_at = view
 
     def show_ghost(self, poses: Mapping[str, Array], end: str) -> None:
         """Draw the student's arm, {short name: (4, 4)}, and a line to its end."""
-        self.ghost.pose(poses)
+        self.ghost.pose(self.arm.carried(poses))
         there = poses.get(end)
         self.yours.show(there is not None, chosen=True)
         self.gap.visible = there is not None
@@ -148,18 +139,18 @@ class ArmScene:
         if self.way.visible:
             self.way.points = joined([np.zeros(3), *origins])
 
-    def look(self, solid: bool, agrees: bool) -> None:
-        """Make the arm solid, or see-through and green or not."""
-        if solid:
-            self.skin.look(None)
-        else:
-            self.skin.look(SEE_THROUGH, GREEN if agrees else GREY)
+    def look(self, solid: bool) -> None:
+        """Make the arm solid, or see-through."""
+        self.skin.look(*(() if solid else (SEE_THROUGH, GREY)))
 
 
 class Pointed:
     """The link that was clicked: its name, and the axis that its joint turns about."""
 
-    def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
+    def __init__(
+        self, server: viser.ViserServer, arm: Arm, look: Callable[[], None]
+    ) -> None:
+        """Show nothing yet; `look` is called at a click: an axis is inside of links."""
         self.arm = arm
         self.body = 0
         self.watch(arm.model)
@@ -174,6 +165,7 @@ class Pointed:
         async def _(event: viser.SceneClickEvent) -> None:
             self.body = self.find(event.ray_origin, event.ray_direction)
             self.show()
+            look()
 
     def watch(self, model: mujoco.MjModel) -> None:
         """Look for links from now on, in the arm's model with its shapes."""
@@ -219,16 +211,28 @@ class Pointed:
         mujoco.mj_kinematics(self.model, self.data)
 
 
-def set_stage(server: viser.ViserServer, stage: Stage = LIGHT) -> None:
+def narrow(view: View) -> View:
+    """Return from where to look at the same in a page that is higher than wide."""
+    position, middle = (np.array(point) for point in view)
+    back = position - middle
+    height = 2.0 * float(np.linalg.norm(back)) * np.tan(FOV / 2.0)
+    right = np.cross(np.array([0.0, 0.0, 1.0]), back)
+    right /= np.linalg.norm(right)
+    up = np.cross(back, right) / np.linalg.norm(back)
+    middle = middle - BESIDE * height * right - ABOVE * BACK * height * up
+    return tuple(middle + BACK * back), tuple(middle)
+
+
+def set_stage(server: viser.ViserServer) -> None:
     """Set backdrop and floor, and the light."""
     # viser lights with a photograph of a sky and casts shadows: on a computer without a
     # GPU half a minute before the first picture, and a sixth of the frames.
     server.scene.configure_environment_map(None)
     server.scene.configure_default_lights(cast_shadow=False)
     server.scene.add_light_hemisphere("/sky", ground_color=(190, 195, 205), intensity=2)
-    backdrop = np.full((2, 2, 3), stage.backdrop, dtype=np.uint8)
+    backdrop = np.full((2, 2, 3), STAGE, dtype=np.uint8)
     server.scene.set_background_image(backdrop, format="png")
     server.scene.add_grid(
         "/floor", 2.0, 2.0, cell_size=0.1, section_size=0.5, cell_thickness=0.5,
-        cell_color=stage.cell, section_color=stage.section, section_thickness=0.8,
+        cell_color=CELL, section_color=SECTION, section_thickness=0.8,
     )  # fmt: skip

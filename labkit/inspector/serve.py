@@ -25,7 +25,7 @@ from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
 from labkit.inspector.common_tabs import Standing, standing
 from labkit.inspector.guard import LOOPBACK, LocalServer
-from labkit.inspector.shapes import shapes, simple_links
+from labkit.inspector.shapes import GRID, shapes, simple_links, thinned
 from labkit.inspector.student import Student
 from labkit.inspector.tab import day_tabs
 from labkit.lesson.day import Day
@@ -143,9 +143,12 @@ async def dress(page: Inspector, dressed: Callable[[], mujoco.MjModel]) -> None:
         print(f"the arm stays without its meshes: {error}", flush=True)
         return
     if coarse := await asyncio.to_thread(simple_links, model):
-        page.dress(model, coarse, True)
+        page.dress(model, coarse, coarse)
     if not (coarse and page.simple):
-        page.dress(model, await asyncio.to_thread(shapes, model), not coarse)
+        fine = await asyncio.to_thread(shapes, model)
+        page.dress(model, fine)
+        ghosts = await asyncio.to_thread(lambda: [thinned(one, GRID) for one in fine])
+        page.dress(model, fine, ghosts)
 
 
 def where_to_look(wish: int, server: LocalServer) -> list[str]:

@@ -18,6 +18,9 @@ from robo47.checks import Array
 VISIBLE_GROUPS = (0, 1, 2)
 COLLISION_GROUPS = (3,)
 WHITE = (0.92, 0.92, 0.92, 1.0)  # collision shapes have no colour
+PACKED = 4096  # steps per metre of a corner's coordinates, which a film packs well
+GRID = 1 / 256  # m: the grid of a ghost's corners, see `thinned`
+LARGER = 0.0015  # m, of a ghost than its arm, and of a second one than the first
 Rgba = tuple[float, ...]  # four
 
 
@@ -81,7 +84,7 @@ def thinned(shape: Shape, grid: float) -> Shape:
     _, cell, count = _distinct(np.round(shape.vertices / grid))
     middles = np.zeros((len(count), 3))
     np.add.at(middles, cell, shape.vertices / count[cell, None])
-    middles = np.round(middles * 4096) / 4096  # m; such numbers are packed better
+    middles = np.round(middles * PACKED) / PACKED
     # A sharp edge has two corners at a place.
     at, became, _ = _distinct(np.column_stack([cell, normals]))
     middles = middles[cell[at]]
@@ -93,6 +96,21 @@ def thinned(shape: Shape, grid: float) -> Shape:
     used, faces = np.unique(faces[_distinct(faces)[0]], return_inverse=True)
     faces = faces.reshape(-1, 3).astype(np.int32)
     return shape._replace(vertices=middles[used], faces=faces)
+
+
+def larger(shape: Shape, by: float) -> Shape:
+    """Return a shape that is larger all around, by metres.
+
+    Two equal surfaces in one place would flicker: a ghost is larger than its arm.
+    """
+    sides = shape.vertices[shape.faces]
+    facing = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
+    normals = np.zeros_like(shape.vertices)
+    for corner in range(3):
+        np.add.at(normals, shape.faces[:, corner], facing)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    vertices = np.round((shape.vertices + by * normals) * PACKED) / PACKED
+    return shape._replace(vertices=vertices)
 
 
 def _distinct(rows: Array) -> list[NDArray[np.intp]]:

@@ -1,7 +1,6 @@
 """A tab of the page, and the tabs of a day, found in its own folder."""
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from labkit.inspector.ghost import Ghost
 from labkit.lesson.day import Day
@@ -22,6 +21,7 @@ class Tab:
 
     title = "a tab"
     wide = False  # whether it needs the room of the two matrices above it
+    solid = True  # whether the arm is solid when the tab is opened
     # From where one looks, and at what, metres; aimed beside the arm, since the panel
     # covers the right third of the page.
     camera: "View" = ((1.75, -1.45, 0.95), (0.42, 0.24, 0.4))
@@ -38,15 +38,6 @@ class Tab:
 
         For `PLAYS` seconds, unless it ends by itself: nobody has to press anything.
         """
-
-    def sets(self, name: str) -> Callable[[Any], None]:
-        """Return what a widget calls to set an attribute; then all is shown anew."""
-
-        def changed(value: Any) -> None:
-            setattr(self, name, value)
-            self.on_move(self.page.q)
-
-        return changed
 
     def lost(self) -> None:
         """Show no numbers: the student's function gave none."""

@@ -64,6 +64,18 @@ def line(text: str, key: str, kind: str = "") -> str:
     return f'<div class="r47{style}" data-line="{escape(key)}">{escape(text)}</div>'
 
 
+def table(head: Iterable[str], rows: Iterable[tuple[Iterable[str], str]]) -> str:
+    """Return a table: the names of the columns, and (cells, kind as of `line`)."""
+    top = "".join(f"<th>{escape(name)}</th>" for name in head)
+    made = "".join(
+        f'<tr class="r47-{kind}">'
+        + "".join(f"<td>{escape(cell)}</td>" for cell in cells)
+        + "</tr>"
+        for cells, kind in rows
+    )
+    return f'<table class="r47 r47-table"><tr>{top}</tr>{made}</table>'
+
+
 def judged(text: str, key: str, kind: str) -> str:
     """Return a line that stands out, see `line`; good and bad ones with their sign.
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from labkit.judge.matrices import pose, rigid_inverse, split
-from labkit.judge.mistake import REDONE, Mistake, told
+from labkit.judge.mistake import Mistake, told
 from robo47.checks import Array
 
 Change = Callable[[Array], Any]
@@ -41,34 +41,31 @@ def _below(T: Array, row: float) -> Array:
 def _mistakes(text: str, redo: Mapping[str, Change]) -> list[Mistake]:
     """Return mistakes of a text with a line of each, as `told` reads it."""
     lines = told(text)
-    return [Mistake(slug, says, redo[slug], its or REDONE) for slug, says, its in lines]
+    return [Mistake(slug, says, redo[slug]) for slug, says, _ in lines]
 
 
 GENERAL = _mistakes(
     """
-    all-signs: every sign is wrong => its negative
-    whole-numbers: your values are truncated to whole numbers, as NumPy does in an array
-      with an integer dtype. Create the array with floats => the truncated correct
-      result
-    transposed: the matrix is transposed => its transpose
-    reshaped: the array is reshaped where it should be transposed; only .T turns rows
-      into columns => its transpose, reshaped
-    rows-swapped: the rows are (v; omega); the rows of omega come first => the correct
-      result with its rows swapped
-    inverse: the result is the inverse, the information matrix; it should be the
-      covariance => its inverse
-    sigma-for-variance: the entries are standard deviations; a covariance has their
-      squares => the root of each entry
-    halves-swapped: the two halves are swapped: {halves[0]} comes first, then
-      {halves[1]} => the correct result with its halves swapped
-    blocks-swapped: the blocks are in the order (v; omega); omega comes first => the
-      correct result with its blocks swapped
-    counted-from-one: the index is counted from 1; it should be counted from 0 => the
-      correct result plus 1
-    one-too-small: the index is one too small
-    inverted: True and False are swapped => the opposite of the correct result
-    row-first: the row comes first; a pixel is (column, row), so x comes before y => the
-      correct result with its two columns swapped
+    all-signs: every sign of your result is wrong
+    whole-numbers: your values are truncated to whole numbers, because your array has an
+      integer dtype. Create the array with floats
+    transposed: your matrix is transposed
+    reshaped: your code reshapes the array where it should transpose it. Only .T turns
+      rows into columns
+    rows-swapped: your rows are in the order (v; omega). The rows of omega should come
+      first
+    inverse: your result is the inverse, the information matrix. It should be the
+      covariance
+    sigma-for-variance: your entries are standard deviations, but a covariance has their
+      squares
+    halves-swapped: your two halves are swapped. The first should be {halves[0]}, the
+      second {halves[1]}
+    blocks-swapped: your blocks are in the order (v; omega), but omega comes first
+    counted-from-one: your index is counted from 1. It should be counted from 0
+    one-too-small: your index is one too small
+    inverted: your code swaps True and False
+    row-first: your code puts the row first. A pixel is (column, row), so x comes before
+      y
     """,
     {
         "all-signs": np.negative,
@@ -97,11 +94,10 @@ def general(*slugs: str, **words: Any) -> list[Mistake]:
 OF_A_ROTATION = [
     *_mistakes(
         """
-        R-transposed: the matrix is transposed, so it rotates in the opposite sense =>
-          its transpose
-        left-handed: the third axis is reversed, so the frame is left-handed (det R =
-          -1) => the correct result with that axis reversed
-        all-signs: every entry has the wrong sign => its negative
+        R-transposed: your matrix is transposed, so it rotates in the opposite sense
+        left-handed: your third axis is reversed, so the frame is left-handed (det R =
+          -1)
+        all-signs: every entry of your matrix has the wrong sign
         """,
         {
             "R-transposed": np.matrix_transpose,
@@ -113,25 +109,20 @@ OF_A_ROTATION = [
 ]
 _OF_A_POSE = _mistakes(
     """
-    R-transposed: the translation is correct, but R is transposed, so T[:3, :3]
-      {wrong_way} => the correct result with R transposed
-    inverse-returned: the result is the inverse, so it {wrong_way} => its inverse
-    T-transposed: the whole 4x4 matrix is transposed, so its bottom row is not (0, 0, 0,
-      1) => its transpose
-    t-in-last-row: the translation is in the last row; it belongs in the last column =>
-      the correct result with t in the last row
-    corner-zero: the bottom row is (0, 0, 0, 0). It should be (0, 0, 0, 1)
-    ones-below: the bottom row is (1, 1, 1, 1). It should be (0, 0, 0, 1)
-    t-lost: the rotation is correct, but the translation is missing => the correct
-      result without t
-    R-lost: the translation is correct, but the rotation is missing: R is the identity
-      => the correct result without R
-    t-negated: the rotation is correct, but the translation has the wrong sign => the
-      correct result with t negated
-    left-handed: the third axis is reversed, so the frame is left-handed (det R = -1) =>
-      the correct result with that axis reversed
-    millimetres: the rotation is correct, but the translation is in millimetres => the
-      correct result in millimetres
+    R-transposed: your translation is correct, but R is transposed, so T[:3, :3]
+      {wrong_way}
+    inverse-returned: your result is the inverse, so it {wrong_way}
+    T-transposed: your whole 4x4 matrix is transposed, so its bottom row is not (0, 0,
+      0, 1)
+    t-in-last-row: your translation is in the last row. It should be in the last column
+    corner-zero: your bottom row is (0, 0, 0, 0). It should be (0, 0, 0, 1)
+    ones-below: your bottom row is (1, 1, 1, 1). It should be (0, 0, 0, 1)
+    t-lost: your rotation is correct, but the translation is missing
+    R-lost: your translation is correct, but the rotation is missing, because your R is
+      the identity
+    t-negated: your rotation is correct, but the translation has the wrong sign
+    left-handed: your third axis is reversed, so the frame is left-handed (det R = -1)
+    millimetres: your rotation is correct, but the translation is in millimetres
     """,
     {
         "R-transposed": _parts(R=np.matrix_transpose),

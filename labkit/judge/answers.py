@@ -76,9 +76,20 @@ def largest(a: Array, scale: float | Array = 1.0) -> float:
     return float(sizes[np.isfinite(sizes)].max(initial=0.0))
 
 
+def as_real(value: Any) -> Any:
+    """Return complex numbers as pairs of real ones, on the last axis; others as given.
+
+    A question with complex arguments tests whether a function passes them through.
+    """
+    array = np.asarray(value)
+    if array.dtype.kind != "c" or not array.ndim:
+        return value
+    return np.ascontiguousarray(array, dtype=np.complex128).view(np.float64)
+
+
 def as_one(some: Sequence[ArrayLike]) -> Array:
     """Return arrays as one, (n, ...); smaller ones are filled up with zeros."""
-    arrays = [np.asarray(one, dtype=np.float64) for one in some]
+    arrays = [np.asarray(as_real(one), dtype=np.float64) for one in some]
     sizes = zip(*(one.shape for one in arrays), strict=True)  # refuses other depths
     whole = np.zeros((len(arrays), *map(max, sizes)))
     for at, one in enumerate(arrays):
@@ -90,7 +101,7 @@ def as_one(some: Sequence[ArrayLike]) -> Array:
 def parts(answers: Any) -> Parts:
     """Return answers as a tuple of parts, also where there is one."""
     some = answers if isinstance(answers, tuple) else (answers,)
-    return tuple(np.asarray(part, dtype=np.float64) for part in some)
+    return tuple(np.asarray(as_real(part), dtype=np.float64) for part in some)
 
 
 def plain(some: Parts) -> Any:
@@ -266,6 +277,8 @@ def say_degrees(deg: Array) -> str:
 def _say(values: Array, unit: str, least: float) -> str:
     if (value := np.max(values)) < least:
         return "0"
+    if not 0.1 <= value < 1e5:
+        return f"{value:.2g} {unit}"
     digits = 0 if value >= 200 else 1 if value >= 10 else 2
     return f"{value:.{digits}f} {unit}"
 
@@ -273,6 +286,21 @@ def _say(values: Array, unit: str, least: float) -> str:
 def say_number(x: float) -> str:
     """Return a number with three digits: "0.0123", "2300", "2.3e+05"."""
     return f"{float(f'{x:.3g}'):.0f}" if 1e3 <= abs(x) < 1e5 else f"{x:.3g}"
+
+
+def of_result(says: str, called: str) -> str:
+    """Return a sentence on a result, with its name where there are several.
+
+    Args:
+        says: a sentence; some begin with "The result is".
+        called: what the result is called, "the torque"; "" where it is the only one.
+    """
+    if not called:
+        return says
+    name = capitalised(called)
+    if says.startswith("The result is "):
+        return name + says.removeprefix("The result")
+    return f"{name}: {as_clause(says).replace('of the result', f'of {called}', 1)}"
 
 
 def say_factor(factor: float) -> str:
@@ -303,7 +331,7 @@ def as_clause(sentence: str) -> str:
     A symbol that may be taken for a word, Lambda say, is in backticks.
     """
     clause = sentence[:1].lower() + sentence[1:]
-    if clause.startswith(OF_A_SYMBOL):
+    if sentence.startswith("True ") or clause.startswith(OF_A_SYMBOL):
         return sentence
     return clause if capitalised(clause) == sentence else sentence
 

@@ -18,7 +18,6 @@ from labkit.judge.mistake import Mistake
 class Change(Mistake):
     """A mistake with one argument, which `redo` takes; {name} in its texts is its."""
 
-    redone: str = "the correct result with that {name}"
     hidden: str = ""  # why the lab cannot show it, "" where it can
 
     def called(self, slug: str) -> "Change":
@@ -36,12 +35,12 @@ def _only(some: slice, x: Any) -> Any:
 # Angles.
 DEGREES = Change(
     "degrees",
-    "{name} is converted to degrees; sine and cosine take radians",
+    "your code converts {name} to degrees, but sine and cosine take radians",
     np.rad2deg,
 )
 RADIANS_TWICE = Change(
     "radians-taken-for-degrees",
-    "{name} is converted from degrees, but {name} is already in radians",
+    "your code converts {name} from degrees, but {name} is already in radians",
     np.deg2rad,
 )
 INTO_COS = DEGREES.called("degrees-into-cos")
@@ -50,40 +49,41 @@ OF_AN_ANGLE = (
     RADIANS_TWICE,
     Change(
         "half-angle",
-        "the rotation is by half of {name}, as in a quaternion",
+        "your code rotates by half of {name}, as in a quaternion",
         lambda x: x / 2,
     ),
     Change(
         "double-angle",
-        "the rotation is by twice {name}; only a quaternion has half angles",
+        "your code rotates by twice {name}, but only a quaternion has half angles",
         lambda x: 2 * x,
     ),
 )
 
 # Signs.
-NEGATED = Change("{name}-sign", "`{name}` enters with the wrong sign", np.negative)
+NEGATED = Change(
+    "{name}-sign", "your code uses `{name}` with the wrong sign", np.negative
+)
 BACKWARDS = Change(
     "all-backwards",
-    "every joint rotates in the opposite sense, by -{name}",
+    "every joint in your code rotates in the opposite sense, by -{name}",
     np.negative,
 )
 
 # One entry for another, as an index or a loop does it.
 LEFT_OUT = Change(
     "joints-left-out",
-    "no joint moves: the result for every {name} is the pose at {name} = 0",
+    "no joint moves in your code, so the result is always the pose at {name} = 0",
     np.zeros_like,
-    "the pose at {name} = 0",
 )
 FIRST_FOR_ALL = Change(
     "first-angle-for-all",
-    "every joint uses {name}[0]; each has its own entry",
+    "every joint in your code uses {name}[0], but each joint has its own entry",
     lambda x: np.repeat(x[:1], len(x), axis=0),
-    "the correct result with {name}[0] everywhere",
 )
 ONE_OFF = Change(
     "off-by-one-joint",
-    "every joint uses its neighbour's entry: the index into {name} is off by one",
+    "every joint in your code uses its neighbour's entry, because the index into "
+    "{name} is off by one",
     partial(np.roll, shift=1),
 )
 OF_ALL_JOINTS = (
@@ -93,22 +93,26 @@ OF_ALL_JOINTS = (
     DEGREES,
     Change(
         "last-joint-missing",
-        "the last joint has no effect, as if the loop ended one joint early",
+        "the last joint has no effect in your code, as if the loop ended one joint "
+        "early",
         partial(_only, slice(-1)),
     ),
     Change(
         "first-joint-missing",
-        "the first joint has no effect, as if the loop started one joint late",
+        "the first joint has no effect in your code, as if the loop started one joint "
+        "late",
         partial(_only, slice(1, None)),
     ),
     Change(
         "first-joint-only",
-        "only the first joint has an effect, as if return were inside the loop",
+        "only the first joint has an effect in your code, as if return were inside the "
+        "loop",
         partial(_only, slice(1)),
     ),
     Change(
         "last-joint-only",
-        "only the last joint has an effect, as if the loop overwrote the others",
+        "only the last joint has an effect in your code, as if the loop overwrote the "
+        "others",
         partial(_only, slice(-1, None)),
     ),
     ONE_OFF,
@@ -117,11 +121,11 @@ OF_ALL_JOINTS = (
 # Order within it.
 HALVES_SWAPPED = Change(
     "halves-swapped",
-    "the halves of {name} are swapped; the angular half comes first",
+    "your code swaps the halves of {name}. The angular half should come first",
     partial(np.roll, shift=3, axis=0),
 )
 TRANSPOSED = Change(
     "transposed",
-    "{name} is transposed, or multiplied from the wrong side",
+    "your code transposes {name} or multiplies it from the wrong side",
     lambda x: np.swapaxes(x, -1, -2),
 )

@@ -394,6 +394,12 @@ def stacked(exchanges: Iterable[Exchange]) -> tuple[Any, ...]:
     return tuple(_column(column, alone) for column in columns)
 
 
+def of_complex(question: Question) -> bool:
+    """Return whether an argument is complex; such answers are read as pairs."""
+    arrays = (arg for arg in question.args if isinstance(arg, np.ndarray))
+    return any(map(np.iscomplexobj, arrays))
+
+
 def as_plain(arg: Any) -> Any:
     """Return an argument as a truth gets it: a Robot's model, a path's pairs."""
     if isinstance(arg, Robot):
@@ -413,7 +419,7 @@ def _column(column: tuple[Any, ...], alone: bool) -> Any:
         for at, one in enumerate(plain):
             found[at] = one
         return found
-    return whole if whole.dtype.kind in "biu" else whole.astype(np.float64)
+    return whole if whole.dtype.kind in "biuc" else whole.astype(np.float64)
 
 
 def right_answers(

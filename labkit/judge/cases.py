@@ -1,4 +1,4 @@
-"""In which cases a wrong function is right: "Right: parallel segments. Wrong: ...".
+"""In which cases a wrong function is right: "It is right for parallel segments ...".
 
 The author of a row names cases of its calls. They are counted among the calls that were
 asked, and each is tried at fresh inputs: at fifty that are of the case, and at fifty
@@ -15,6 +15,7 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Question, Reply
 from labkit.judge import valid
+from labkit.judge.answers import listed
 from labkit.judge.ask import Ask, Asked, as_plain, right_answers
 from labkit.judge.crossed import crossed
 from labkit.judge.draw import Draw
@@ -172,10 +173,22 @@ def sentence(cases: Cases, old: Answered, new: Answered) -> tuple[int, str] | No
     if len(right) > LISTED and len(wrong + mixed) == 1:
         (one,) = wrong + mixed
         if others[one].all(RIGHT) and tallies[one].enough:
-            return left, f"Wrong only{' in some calls' if mixed else ''}: {one}."
-    lists = (("Right", right), ("Wrong", wrong), ("Wrong in some calls", mixed))
-    parts = [f"{word}: {'; '.join(some[:LISTED])}." for word, some in lists if some]
+            how = "in some calls, all of them with" if mixed else "only for"
+            return left, f"The result is wrong {how} {one}."
+    lists = (
+        ("The result is right for", right),
+        ("It is wrong for", wrong),
+        ("It is wrong in some calls with", mixed),
+    )
+    parts = [f"{how} {_listed(some[:LISTED])}." for how, some in lists if some]
     return left, " ".join(parts)
+
+
+def _listed(phrases: Sequence[str]) -> str:
+    """Return phrases as a list; one with a comma in it asks for semicolons."""
+    if len(phrases) < 2 or not any("," in one for one in phrases):
+        return listed(phrases)
+    return f"{'; '.join(phrases[:-1])}; and {phrases[-1]}"
 
 
 def in_all_cases(cases: Cases, old: Answered, new: Answered) -> str:
@@ -184,7 +197,7 @@ def in_all_cases(cases: Cases, old: Answered, new: Answered) -> str:
     if not all(any(of(call) for call in wrong) for of in cases.values()):
         return ""
     first = next(iter(cases))
-    return f"Wrong in some calls of every case, also in the simplest one: {first}."
+    return f"The result is wrong in some calls of every case, even with {first}."
 
 
 def _of(some: Answered, holds: Callable[[Call], bool], of: bool) -> list[str]:

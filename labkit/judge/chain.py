@@ -20,6 +20,7 @@ from labkit.judge.rigid_kinds import Pose
 from robo47.checks import Array
 
 STEADY = 1e-5  # how far a constant may wander: a student's float32
+ALONE = "Without this mistake, the error is 0."
 NEAR = 1e-4
 
 
@@ -55,7 +56,7 @@ def one_place(S: Array, T: Array, factors: Sequence[Factor]) -> Finding | None:
         T: the right ones.
         factors: whose product T is.
     """
-    rest = f"{Pose().largest_error(S, T)} Without this mistake, it is 0."
+    rest = f"{Pose().largest_error(S, T)} {ALONE}"
     found = list(_in_place_of(S, factors))
     for factor, X in found:
         if factor.fixed and not steady(X):
@@ -69,8 +70,7 @@ def one_place(S: Array, T: Array, factors: Sequence[Factor]) -> Finding | None:
         off = Pose().apart(fixed[0][1][:1], fixed[0][0].T[:1])
         return Finding(
             "one-link-off",
-            f"One fixed transform is wrong, the one to {names}: its error is {off} at "
-            f"every q. {rest}",
+            f"Your fixed transform to {names} is wrong by {off} at every q. {ALONE}",
         )
     for factor, X in found:
         if factor.unnamed and (wrong := factor.unnamed(X)):

@@ -75,38 +75,38 @@ def _named(call: Call, names: Sequence[str]) -> Sequence[str]:
 
 
 def of_answer() -> Iterator[tuple[str, Callable[[Array], Any]]]:
-    """Yield changes of finished answers, (n, ...), and what they are then.
+    """Yield changes of finished answers, (n, ...), each with a verb: "squares it".
 
     A factor and a sign are none of them: their kind tells these with what they are.
     """
-    yield "its sign is lost", np.abs
-    yield "it is squared", np.square
-    yield "its square root is taken", np.sqrt
-    yield "its reciprocal is taken", lambda T: 1.0 / T
-    yield "it is subtracted from 1", lambda T: 1.0 - T
-    yield "negative values are set to 0", lambda T: np.maximum(T, 0.0)
-    yield "it is clamped to 0 and 1", lambda T: np.clip(T, 0.0, 1.0)
-    yield "it is clamped to -1 and 1", lambda T: np.clip(T, -1.0, 1.0)
+    yield "drops its sign", np.abs
+    yield "squares it", np.square
+    yield "takes its square root", np.sqrt
+    yield "takes its reciprocal", lambda T: 1.0 / T
+    yield "subtracts it from 1", lambda T: 1.0 - T
+    yield "sets negative values to 0", lambda T: np.maximum(T, 0.0)
+    yield "clamps it to [0, 1]", lambda T: np.clip(T, 0.0, 1.0)
+    yield "clamps it to [-1, 1]", lambda T: np.clip(T, -1.0, 1.0)
     for decimals in range(4):
         yield (
-            f"it is rounded to {decimals} decimals",
+            f"rounds it to {decimals} decimals",
             partial(np.round, decimals=decimals),
         )
-    yield "it is rounded down", np.floor
-    yield "it is rounded up", np.ceil
-    yield "it is normalised", _normalised
-    yield "it is in reverse order", partial(np.flip, axis=1)
-    yield "it is shifted by one entry", partial(np.roll, shift=1, axis=1)
-    yield "it is shifted by one entry", partial(np.roll, shift=-1, axis=1)
-    yield "its halves are swapped", partial(_rolled, axis=1)
-    yield "its halves are swapped", partial(_rolled, axis=-1)
-    yield "it is transposed", np.matrix_transpose
-    yield "only its diagonal is kept", lambda T: T * np.eye(T.shape[-1])
-    yield "only its upper triangle is kept", np.triu
-    yield "only its lower triangle is kept", np.tril
-    yield "it is inverted", np.linalg.inv
-    yield "its cumulative sum is taken", partial(np.cumsum, axis=1)
-    yield "its columns are swapped", partial(np.flip, axis=-1)
+    yield "rounds it down", np.floor
+    yield "rounds it up", np.ceil
+    yield "normalises it", _normalised
+    yield "reverses its order", partial(np.flip, axis=1)
+    yield "shifts it by one entry", partial(np.roll, shift=1, axis=1)
+    yield "shifts it by one entry", partial(np.roll, shift=-1, axis=1)
+    yield "swaps its halves", partial(_rolled, axis=1)
+    yield "swaps its halves", partial(_rolled, axis=-1)
+    yield "transposes it", np.matrix_transpose
+    yield "keeps only its diagonal", lambda T: T * np.eye(T.shape[-1])
+    yield "keeps only its upper triangle", np.triu
+    yield "keeps only its lower triangle", np.tril
+    yield "inverts it", np.linalg.inv
+    yield "takes its cumulative sum", partial(np.cumsum, axis=1)
+    yield "swaps its columns", partial(np.flip, axis=-1)
 
 
 def simple(answer: Array) -> Iterator[Callable[[Array], Array]]:

@@ -32,7 +32,6 @@ class Hypothesis:
     slug: str  # its name, "slip-sign"
     says: str  # a sentence's clause that stands alone
     code: Callable[..., Any]  # a function of one question's arguments
-    redone: str  # what to call its answers: "its transpose"
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +160,7 @@ def _equals(s: Array, h: Array, scale: Any) -> bool:
 def evidence(exact: bool) -> str:
     """Return what a hypothesis does, after what it is: "its transpose ..."."""
     if exact:
-        return "gives the same output"
+        return "gives the same output as your code"
     return "explains at least 99 % of the difference in every call"
 
 

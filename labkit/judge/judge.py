@@ -25,6 +25,7 @@ from labkit.judge.answers import (
     capitalised,
     difference,
     listed,
+    of_result,
     plain,
     worst_part,
 )
@@ -48,6 +49,8 @@ from labkit.judge.mistake import Finding, Verdict
 from labkit.judge.typed import in_words
 from robo47.checks import Array
 
+# What a kind says of answers with the number of calls in it.
+COUNTED = ("too-often-true", "too-seldom-true", "both-ways")
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else
 
 
@@ -100,7 +103,7 @@ def _without_a_name(asked: Asked) -> Verdict | None:
 
 def _by_how_much(gap: Array, tolerance: float) -> Finding:
     """Return how many answers are right, and how far the others are off at worst."""
-    right = f"The result is right for {np.sum(gap <= tolerance)} of {len(gap)} inputs."
+    right = f"The result is wrong in {np.sum(gap > tolerance)} of {len(gap)} calls."
     if not np.isfinite(worst := gap.max()):
         return Finding("off", right)
     return Finding("off", f"{right} The largest error is {worst:.2g}.")
@@ -211,8 +214,9 @@ def _both(
         return found
     # One answer alone may be that of many mistakes.
     named = attempt(diagnose, case, S, T, effort) if wrong.sum() > 1 else None
-    other = named or what_is_wrong(case, S, T)
-    some = f"Of the {len(wrong)} other answers {wrong.sum()} are wrong, too."
+    other = named or what_is_wrong(case, S, T, counted=False)
+    verb = "is" if wrong.sum() == 1 else "are"
+    some = f"Of the {len(wrong)} other answers, {wrong.sum()} {verb} wrong, too."
     also = "The other answers are wrong, too." if wrong.all() else some
     says = f"{found.message} {also} {other.message}"
     return Finding(named.slug if named else found.slug, says)
@@ -310,9 +314,9 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     first, found = wrong[0]
     given = in_words(first.question, names)
     often = sum(other.slug == found.slug for _, other in wrong)
-    where = f"For {often} of {len(asked.main) + len(asked.fresh)} inputs"
+    where = f"This happens for {often} of {len(asked.main) + len(asked.fresh)} inputs"
     where += _first([1], [given], "first for")
-    return Verdict("wrong", found.slug, f"{found.message} ({where}.)")
+    return Verdict("wrong", found.slug, f"{found.message} {where}.")
 
 
 def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
@@ -473,25 +477,37 @@ def _none_or_not(m: Matcher) -> Finding | None:
     return None
 
 
-def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
-    """Return which part of the answers is wrong, and by how much."""
+def what_is_wrong(case: Case, S: Parts, T: Parts, counted: bool = True) -> Finding:
+    """Return which part of the answers is wrong, by how much, and in how many calls.
+
+    Args:
+        case: what was asked.
+        S: the student's answers.
+        T: the right ones.
+        counted: whether the wrong calls are counted.
+    """
     ask = case.ask
     i = worst_part(case.ask.kinds, S, T, case.ask.near)
     kind = ask.kinds[i]
     found = tried.what_is_wrong(case, S, T, i)
-    called = f"{kind.called}: " if len(S) > 1 and kind.called else ""
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
         where = tried.in_common(case, S, T, i)
         wrong = difference(S[i], T[i], kind.scale, ask.rtol) > ask.tolerance
-        if not wrong.all():
-            it = capitalised(kind.called) if called else "The result"
-            where += f" {it} is right for {np.sum(~wrong)} of {len(wrong)} inputs"
-            where += f"{_first(wrong, case.given, 'but not for')}."
-    right = _right_results(case, S, T)
-    called = capitalised(called) if right else called
-    says = f"{right}{called}{found.message}{where}{_wrong_too(case, S, T, i)}"
+        if counted and not wrong.all() and found.slug not in COUNTED:
+            found = _in_some_calls(found, int(wrong.sum()), len(wrong))
+    says = of_result(found.message, kind.called if len(S) > 1 else "")
+    says = f"{_right_results(case, S, T)}{says}{where}{_wrong_too(case, S, T, i)}"
+    says = says.replace("by up to more than", "by more than")
     return Finding(found.slug, says)
+
+
+def _in_some_calls(found: Finding, wrong: int, calls: int) -> Finding:
+    """Return a finding with the number of calls that are wrong."""
+    often = f"The result is wrong in {wrong} of {calls} calls"
+    if off := re.fullmatch(r"The result is off by (up to .+)\.", found.message):
+        return Finding(found.slug, f"{often}, by {off[1]}.")
+    return Finding(found.slug, f"{found.message} {often}.")
 
 
 def _wrong_too(case: Case, S: Parts, T: Parts, i: int) -> str:

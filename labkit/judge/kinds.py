@@ -15,6 +15,7 @@ import numpy as np
 from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import (
     MATCHES,
+    as_real,
     capitalised,
     gap,
     listed,
@@ -128,7 +129,7 @@ class Kind:
         """Return a right or a mistaken answer as numbers; None is NaN."""
         if value is None and self.none:
             return np.full([n or 1 for n in self.shape], np.nan)
-        return np.asarray(value, dtype=np.float64)
+        return np.asarray(as_real(value), dtype=np.float64)
 
     def sent(self, answer: Array) -> Any:
         """Return such numbers as the function returns them."""
@@ -139,8 +140,13 @@ class Kind:
         return bool(self.none and answer.size and np.isnan(answer).all())
 
     def another_size(self, got: tuple[int, ...], right: tuple[int, ...]) -> str:
-        """Return that an answer has not the size that its question asks for."""
-        return f"Your function returns shape {got}; expected shape {right}"
+        """Return that some answers have not the size that their questions ask for.
+
+        Args:
+            got: the shape of the first.
+            right: the right one, of as many axes or of others.
+        """
+        return "Your function returns a wrong shape"
 
     def _sent(self, answer: Array) -> Any:
         return answer if np.ndim(answer) else float(answer)
@@ -183,10 +189,11 @@ class Kind:
         """
         if self.whole and self.gap == Kind.gap:
             wrong = (S != T).reshape(len(T), -1).any(axis=1)
-            return f"Wrong in {np.sum(wrong)} of {len(T)} calls."
+            return f"The result is wrong in {np.sum(wrong)} of {len(T)} calls."
         apart = self.apart(S, T)
-        said = self.gap.replace("error", "errors") if " and " in apart else self.gap
-        return f"{said.capitalize()} {apart}."
+        if self.gap != Kind.gap:
+            return f"The result is {self.gap} {apart}."
+        return f"Largest error{'s' * (' and ' in apart)}: {apart}."
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
         """Return the most useful true thing about answers that no mistake gives."""
@@ -245,7 +252,8 @@ class Vector(Kind):
             return Finding("off", f"The result is off by up to {self.apart(S, T)}.")
         names = [f"{name}'s" for name in self.names] or counted
         where = " and ".join(names[i] for i in np.flatnonzero(off))
-        says = f"All entries are right except {where}: off by up to {self.apart(S, T)}."
+        says = f"All entries are right except {where}. The largest error is "
+        says += f"{self.apart(S, T)}."
         return Finding("few-entries-off", says)
 
 
@@ -273,10 +281,8 @@ def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
     plain = abs(factor) > 1e-6 and abs(factor - 1.0) > 1e-3
     if not plain or not matches(S, factor * T, kind.scale):
         return None
-    says = (
-        f"The result is {say_factor(factor)} times the right one, in every entry and "
-    )
-    says += "every time."
+    which = "Every entry of the result" if S.ndim > 1 else "The result"
+    says = f"{which} is {say_factor(factor)} times the correct value in every call."
     if kind.unit and any(np.isclose(factor, other) for other in OF_UNITS):
         says += f" Is it in another unit? The function should return {kind.unit}."
     return Finding("one-factor-off", says)
@@ -328,5 +334,5 @@ def few_told(where: str, wrong: Array, off: str) -> Finding:
     if 2 * wrong.any(axis=1).sum() < len(wrong):
         says = f"Some calls are right. In the others, only {where} is wrong: off by"
         return Finding("few-entries-off", f"{says} up to {off}.")
-    says = f"All entries are right except {where}: off by up to {off}. Look for a wrong"
-    return Finding("few-entries-off", f"{says} sign, letter or factor.")
+    says = f"All entries are right except {where}. The largest error is {off}. Look for"
+    return Finding("few-entries-off", f"{says} a wrong sign, letter or factor.")

@@ -51,10 +51,9 @@ class Matrix(Kind):
                 names = ", ".join(self.blocks[i] for i in order)
                 yield Mistake(
                     "blocks-in-another-order",
-                    f"the blocks are in another order: {names}; the right one is "
+                    f"your blocks are in the order {names}. The correct order is "
                     f"{', '.join(self.blocks)}",
                     partial(_in_blocks, order=order),
-                    "the right one with its blocks in that order",
                 )
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
@@ -86,13 +85,12 @@ def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
     parts = [one for one in parts if one]
     if not parts:
         return None
-    says = f"Only a part is wrong, {' and '.join(parts)}"
-    off = f"off by up to {kind.apart(S, T)}"
+    says = f"All entries are right except those in {' and '.join(parts)}."
+    off = f"The largest error is {kind.apart(S, T)}."
     alone = np.ndim(kind.scale) == 0
     if alone and (found := one_factor(kind, S[:, wrong], T[:, wrong])):
-        times = found.message.removeprefix("The result ").partition(",")[0]
-        off = f"this part {times}"
-    return Finding("part-off", f"{says}: {off}.")
+        off = found.message.replace("of the result", "of this part", 1)
+    return Finding("part-off", f"{says} {off}")
 
 
 def _blocks(kind: Matrix, wrong: Any) -> str:

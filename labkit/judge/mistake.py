@@ -13,30 +13,7 @@ from robo47.checks import Array
 
 REDONE = "the reference solution with this mistake"
 BOTH = "the reference solution with both mistakes"
-# What an answer is called in the catalogue that is no noun: "with min", "upside down".
-_FORMULA = re.compile(r"with(out)? ")
-_FRAGMENT = re.compile(
-    r"(after|at|by|cut|divided|down|for|from|halved|in|less|minus|rounded|squared"
-    r"|times|turned|up|upside|where|[+*/])\b ?|[+*/] "
-)
-# A name that only the sentence before it explains: "the correct result with that sign".
-_POINTS_BACK = re.compile(
-    r"\bthat (?!is\b|are\b)|\b(these|those)\b(?! above)|^this \w+$|\bwithout it\b"
-)
-_OF_BOTH = re.compile(r"\bwith both( mistakes)?$")
-_ITS = re.compile(r"its (negative|inverse|transpose|square|root)\b(.*)")
-# A formula has a sign, or is of symbols alone, and has none of these words.
-_SYMBOL = r"(?:\w|\w*[\d_]\w*|dq|qd|tau)"
-_CODE = re.compile(rf"[-+*/^=@()\[\].|]|^{_SYMBOL}(?: {_SYMBOL})*$")
-_WORDS = {
-    "all", "an", "and", "as", "at", "by", "each", "for", "from", "in", "instead",
-    "its", "last", "of", "on", "one", "over", "plus", "the", "then", "this", "times",
-    "to", "with", "without", "where",
-}  # fmt: skip
-_PLURAL = re.compile(
-    r"(all|both|two|three|five|ten|eleven|twenty|fifty|rays|zeros)\b"
-    r"|(the|its|their) (?!series\b)\w*[^\Wsiu]s\b"
-)
+_BOTH = re.compile(r" => both$")
 
 
 class Finding(NamedTuple):
@@ -90,52 +67,30 @@ class Mistake:
     # one array (n, ...) per argument (a `Robot` as its model), and returns (n, ...), or
     # a tuple of such where the function returns several.
     redo: Callable[..., Any]
-    # What to call that answer, as in "0 from its transpose".
-    redone: str = REDONE
+    both: bool = False  # whether it is two mistakes at once
     reached: bool = False  # whether it is one of a smaller function that this one calls
 
     def does(self, evidence: str) -> str:
-        """Return a clause on its answers: "the correct formula with min stops".
+        """Return a clause on the reference solution with it: "... stops in one call".
 
         Args:
             evidence: a verb and its object, in the singular: "stops in one call".
         """
-        called = self._called()
-        if _FORMULA.match(called):
-            return f"the correct formula {called} {evidence}"
-        if _FRAGMENT.match(called):
-            return f"the correct result, {called.rstrip(',')}, {evidence}"
-        if _PLURAL.match(called):
-            evidence = re.sub(r"^(\w+)s\b", r"\1", evidence)
-        return f"{called} {evidence}"
-
-    def _called(self) -> str:
-        """Return what to call its answers in a sentence that stands alone."""
-        called = self.redone
-        if _OF_BOTH.search(called):
-            return BOTH
-        if _POINTS_BACK.search(called):
-            return REDONE
-        if its := _ITS.fullmatch(called):
-            rest = f"{its[2]}," if its[2] else ""
-            return f"the {its[1]} of the correct result{rest}"
-        return f"`{called}`" if _is_code(called) else called
+        return f"{BOTH if self.both else REDONE} {evidence}"
 
 
-def _is_code(text: str) -> bool:
-    """Return whether a text is a formula or a name of code and no phrase."""
-    words = set(re.findall(r"[a-z]+", text))
-    return bool(_CODE.search(text)) and "`" not in text and not words & _WORDS
+def both_told(first: str, second: str) -> str:
+    """Return two clauses on two mistakes as sentences."""
+    return f"Your code has two mistakes. First, {first}. Second, {second}."
 
 
-def told(text: str) -> Iterator[tuple[str, str, str]]:
-    """Yield slug, sentence and what to call the answer of mistakes, "" where none says.
+def told(text: str) -> Iterator[tuple[str, str, bool]]:
+    """Yield slug and sentence of mistakes, and whether they are two at once.
 
     Args:
-        text: a line of each, "slug: sentence => what to call the answer"; an indented
-            line goes on with the one above.
+        text: a line of each, "slug: sentence", which ends in " => both" where it is on
+            two mistakes at once; an indented line goes on with the one above.
     """
     for line in re.sub(r"\n +", " ", inspect.cleandoc(text)).splitlines():
-        slug, _, rest = line.partition(": ")
-        says, _, redone = rest.partition(" => ")
-        yield slug, says, redone
+        slug, _, says = line.partition(": ")
+        yield slug, _BOTH.sub("", says), bool(_BOTH.search(says))

@@ -12,6 +12,7 @@ from labkit.base.exchange import Exchange
 from labkit.judge import results
 from labkit.judge.answers import InTurn, Parts, capitalised, matches, parts
 from labkit.judge.ask import Ask, Asked, stacked
+from labkit.judge.hypothesis import evidence
 from labkit.judge.mistake import Finding, Mistake
 
 AGREE = 2  # answers that have to be the same besides what stops
@@ -28,7 +29,7 @@ def named(asked: Asked, found: Finding) -> Finding:
     mine = [_given(one, asked.ask) for one in asked.main]
     if any(isinstance(one, str) for one in mine):
         return found
-    return _first(asked, mine, found, "gives the same output")
+    return _first(asked, mine, found, evidence(True))
 
 
 def stops_alike(asked: Asked, found: Finding) -> Finding:
@@ -42,7 +43,7 @@ def stops_alike(asked: Asked, found: Finding) -> Finding:
     stops = sum(isinstance(one, str) for one in mine)
     if not stops or len(mine) - stops < AGREE:
         return found
-    return _first(asked, mine, found, f"stops in the same {stops} of {len(mine)} calls")
+    return _first(asked, mine, found, f"stops in the same call{'s' * (stops > 1)}")
 
 
 def _first(asked: Asked, mine: Sequence[Answer], found: Finding, how: str) -> Finding:
@@ -51,7 +52,7 @@ def _first(asked: Asked, mine: Sequence[Answer], found: Finding, how: str) -> Fi
         if isinstance(mistake.redo, InTurn):
             again = _again(mistake, arguments, len(mine))
             if len(again) == len(mine) and all(map(_same, mine, again)):
-                says = f"{found.message} {capitalised(mistake.says)}. "
+                says = f"{capitalised(mistake.says)}. {found.message} "
                 says += f"{capitalised(mistake.does(how))}."
                 return Finding(mistake.slug, says)
     return found

@@ -250,8 +250,7 @@ class Waypoints(Matrix):
     def another_size(self, got: tuple[int, ...], right: tuple[int, ...]) -> str:  # noqa: D102
         if got[1:] != right[1:]:
             return super().another_size(got, right)
-        its = right[0] or "none"
-        return f"Your path has {count(got[0], 'waypoint')}; expected {its}"
+        return "Your path has a wrong number of waypoints"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         off = gap(S, T) / self.scale > RIGHT

@@ -23,7 +23,7 @@ from labkit.judge.answers import (
 )
 from labkit.judge.hypothesis import EXACT, evidence
 from labkit.judge.matcher import Code, Matcher, row
-from labkit.judge.mistake import BOTH, Finding, Mistake
+from labkit.judge.mistake import BOTH, Finding, Mistake, both_told
 from labkit.judge.mutant import Mutant
 from labkit.judge.sentence import half
 from labkit.judge.sources import after, answered_near
@@ -71,7 +71,7 @@ def _told(m: Matcher, slugs: Sequence[str], says: Sequence[str]) -> Finding | No
     if len(set(says)) < len(says):
         return None
     how = m.with_error(f"{BOTH} {evidence(True)}")
-    return Finding("+".join(slugs), f"Two things at once: {'; '.join(says)}. {how}")
+    return Finding("+".join(slugs), f"{both_told(*says)} {how}")
 
 
 @dataclass(frozen=True)

@@ -43,7 +43,7 @@ def spans(x: Any, asked: Sequence[Any], right: Sequence[bool]) -> Iterator[Span]
         sizes = [abs(one) for one in asked]
         beyond = _range(sizes, right)
         if beyond and beyond[1] == max(sizes) and 0.0 < beyond[0] < SMALL * beyond[1]:
-            says = f"whenever {{}} is {number(beyond[0])} or more in size"
+            says = f"whenever {{}} has a magnitude of {number(beyond[0])} or more"
             yield Span(says, partial(_above, beyond[0]), partial(_beyond, *beyond))
         elif between:
             low, high = between
@@ -62,7 +62,9 @@ def spans(x: Any, asked: Sequence[Any], right: Sequence[bool]) -> Iterator[Span]
         low = between[0]
         usual = float(np.median(np.abs(np.concatenate(list(asked)))))
         if min(least) < low <= SMALL * usual:
-            says = f"whenever every entry of {{}} is {number(low)} or more in size"
+            says = (
+                f"whenever every entry of {{}} has a magnitude of {number(low)} or more"
+            )
             yield Span(says, partial(_above, low), partial(_lifted, low))
 
 

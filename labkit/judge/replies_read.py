@@ -2,7 +2,7 @@
 
 import linecache
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +10,8 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Reply
 from labkit.judge import results
-from labkit.judge.answers import InTurn, Parts, as_one, own, parts
-from labkit.judge.ask import Ask, Asked, replies, stacked
+from labkit.judge.answers import InTurn, Parts, as_one, as_real, own, parts
+from labkit.judge.ask import Ask, Asked, of_complex, replies, stacked
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
 from labkit.lesson.slips import OTHER_PACKAGES, no_python
@@ -134,7 +134,16 @@ def not_loaded(script: Path, reply: Reply) -> str:
     return why.removesuffix(". ")
 
 
-def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | Finding:
+def values(exchanges: Sequence[Exchange]) -> list[Any]:
+    """Return the values of replies; complex ones as pairs, where that was asked."""
+    found = []
+    for one, reply in zip(exchanges, replies(exchanges), strict=True):
+        pairs = of_complex(one.question)
+        found.append(as_real(reply.value) if pairs else reply.value)
+    return found
+
+
+def read(exchanges: Sequence[Exchange], ask: Ask, source: str = "") -> Parts | Finding:
     """Return the answers' parts stacked, (n, *shape), or what keeps them from it.
 
     Args:
@@ -159,7 +168,7 @@ def read(exchanges: Iterable[Exchange], ask: Ask, source: str = "") -> Parts | F
             says = f"Your function returns None for {some}; "
             says += f"{results.expected(ask.kind)}."
         return Finding("nothing-returned", says)
-    columns = results.read(ask.kind, [reply.value for reply in replied])
+    columns = results.read(ask.kind, values(exchanges))
     return columns if isinstance(columns, Finding) else tuple(map(as_one, columns))
 
 
@@ -178,12 +187,13 @@ def not_accepted(asked: Asked) -> Iterator[tuple[Exchange, Finding]]:
 
 def of_another_size(asked: Asked) -> Finding | None:
     """Return that answers have not the size that their questions ask for, if so."""
-    for i, kind, got, right in sizes(asked.ask, asked.main):
-        if got != right:
-            says = kind.another_size(got, right)
-            where = f"in call {i + 1} of {len(asked.main)}"
-            return Finding("shape", f"{says}, {where}.")
-    return None
+    off = [one for one in sizes(asked.ask, asked.main) if one[2] != one[3]]
+    if not off:
+        return None
+    _, kind, got, right = off[0]
+    calls = len({i for i, *_ in off})
+    says = kind.another_size(got, right)
+    return Finding("shape", f"{says} in {calls} of {len(asked.main)} calls.")
 
 
 def of_another_length(asked: Asked) -> bool:
@@ -209,7 +219,7 @@ def sizes(
     if not isinstance(truth, InTurn) or all(None not in kind.shape for kind in kinds):
         return
     right = map(parts, truth.each(stacked(exchanges)))
-    given = results.read(ask.kind, [one.value for one in replies(exchanges)])
+    given = results.read(ask.kind, values(exchanges))
     assert not isinstance(given, Finding)  # it was read before
     for i, (its, mine) in enumerate(zip(right, zip(*given, strict=True), strict=True)):
         for T, S, kind in zip(its, mine, kinds, strict=True):
@@ -292,5 +302,5 @@ def _numbers(answer: Any) -> Iterator[Array]:
         for part in answer:
             yield from _numbers(part)
         return
-    plain = list(map(ord, answer)) if isinstance(answer, str) else answer
+    plain = list(map(ord, answer)) if isinstance(answer, str) else as_real(answer)
     yield np.asarray(plain, dtype=np.float64).ravel()

@@ -211,12 +211,13 @@ class Experiments:
                 continue
             name = f"{self.names[k]}{_sized(self.calls[0][k])}"
             if np.isclose(grew, 1.0, rtol=self.near):
-                says = f"If {name} is doubled, your answer stays the same"
+                says = f"If {name} is doubled, your result stays the same"
                 return f"{says}, but it should change."
             if its is not None:
-                says = f"If {name} is doubled, your answer becomes {say_factor(grew)}"
                 return (
-                    f"{says} times as large; the right answer, {say_factor(its)} times."
+                    f"If {name} is doubled, your result becomes {say_factor(grew)} "
+                    f"times as large, but it should become {say_factor(its)} times as "
+                    "large."
                 )
         return ""
 

@@ -95,7 +95,9 @@ class Pose(Kind):
         if t_off == "0":
             return Finding(slug, f"The translation is right. {message}")
         slug = "pose-off" if slug == "rotation-off" else slug
-        return Finding(slug, f"{message} The translation is off by up to {t_off}, too.")
+        return Finding(
+            slug, f"{message} The translation is also wrong, by up to {t_off}."
+        )
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
         (R, t), (R_T, t_T) = split(S), split(T)
@@ -131,11 +133,11 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
             "inputs. (det R is -1.)",
         )
     off_by = degrees(S, T)
-    often = ", the same amount every time" if np.ptp(off_by) < 1e-3 else ""
+    often = " in every call" if np.ptp(off_by) < 1e-3 else ""
     return Finding(
         "rotation-off",
-        "R is a rotation, but not the right one: "
-        f"{'' if often else 'up to '}{say_degrees(off_by)} off{often}.",
+        f"R is a valid rotation matrix, but it is wrong by {'' if often else 'up to '}"
+        f"{say_degrees(off_by)}{often}.",
     )
 
 

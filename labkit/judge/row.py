@@ -9,7 +9,7 @@
 
     @row.wrong
     def error_sign(e, ed, kp, kd):
-        "the spring pushes away from the goal => the right one with -e"
+        "the spring pushes away from the goal"
         return kd * ed - kp * e
 
 The decorated function is the mistake as a student writes it. Made again case by case,
@@ -30,7 +30,7 @@ from labkit.judge.answers import AtOnce, InTurn, entry_of, once
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
 from labkit.judge.draw import Draw
-from labkit.judge.mistake import REDONE, Mistake, told
+from labkit.judge.mistake import Mistake, told
 from labkit.judge.mutant import Body, body_of, glosses
 from labkit.judge.results import checked, numbers
 from labkit.judge.written import Answered, stop, stops_with
@@ -53,10 +53,10 @@ class Way:
     # question, its kind.
     says: str
     code: Code  # the function, as a student writes it
-    redone: str = REDONE  # as in a `Mistake`
     hidden: str = ""  # why the lab cannot show it; "" where the lab, run with it, fails
     # Whether it is a mistake of a smaller function that this one calls.
     reached: bool = False
+    both: bool = False  # as in a `Mistake`
 
     @property
     def named(self) -> bool:
@@ -77,6 +77,9 @@ def inside(where: str, says: str) -> str:
         return where + says
     if re.fullmatch(r"`\w+`", inner[1]):
         return says
+    if inner[1] == "your code":
+        own = where.replace("in `", "in your `", 1)
+        return own + says[inner.end() :]
     return f"in {inner[1]} of {where[3:]}{says[inner.end() :]}"
 
 
@@ -148,9 +151,10 @@ class Row:
     ) -> None:
         """Take cases of calls, so that a student is told which of them are right.
 
-        The cases of one list are told together: "Right: parallel segments. Wrong:
-        segments that cross." A row may have several lists; the one that leaves the
-        fewest calls open is told. Each case needs inputs of `inputs` or of `rare`.
+        The cases of one list are told together: "The result is right for parallel
+        segments. It is wrong for segments that cross." A row may have several lists;
+        the one that leaves the fewest calls open is told. Each case needs inputs of
+        `inputs` or of `rare`.
 
         Args:
             some: by phrase, a plural noun that a student understands, a function of a
@@ -173,52 +177,48 @@ class Row:
         self,
         slug: str | Code = "",
         says: str = "",
-        redone: str = REDONE,
         hidden: str = "",
+        both: bool = False,
     ) -> Any:
         """Take a mistake, bare or with arguments; these are those of a `Way`.
 
-        Without them the function's name is the slug and its docstring the sentence,
-        followed by " => " and what to call the answer.
+        Without them the function's name is the slug and its docstring the sentence.
         """
         if callable(slug):
             return self.wrong()(slug)
 
         def keep(code: Code) -> Code:
             name = slug or code.__name__.replace("_", "-")
-            told, _, called = " ".join((code.__doc__ or "").split()).partition(" => ")
-            return self._keep(
-                Way("wrong", name, says or told, code, called or redone, hidden)
-            )
+            told = " ".join((code.__doc__ or "").split())
+            return self._keep(Way("wrong", name, says or told, code, hidden, both=both))
 
         return keep
 
     def wrongs(
         self,
         code: Code | None = None,
-        redone: str = REDONE,
         hidden: Mapping[str, str] = MappingProxyType({}),
     ) -> Any:
         """Take the mistakes of one function that returns {slug: answer}.
 
-        Its docstring has a line of each, "slug: sentence => what to call the answer";
+        Its docstring has a line of each, "slug: sentence";
         an indented line goes on with the one above; "slug 2" is another way to make the
         mistake. What costs much, or may stop, is a function without arguments.
 
         Args:
             code: the function; None to give the others.
-            redone: what to call an answer whose line does not say.
             hidden: per slug why the lab cannot show it, as in a `Way`.
         """
         if code is None:
-            return partial(self.wrongs, redone=redone, hidden=hidden)
-        said = {slug: texts for slug, *texts in told(code.__doc__ or "")}
+            return partial(self.wrongs, hidden=hidden)
+        said = list(told(code.__doc__ or ""))
+        known = {slug for slug, _, _ in said}
         table = once(code)
-        for slug, (says, called) in said.items():
-            one = entry_of(table, slug, said.keys())
+        for slug, says, both in said:
+            one = entry_of(table, slug, known)
             update_wrapper(one, code, (), ())  # its arguments' names
             name = slug.partition(" ")[0]
-            self.wrong(name, says, called or redone, hidden.get(slug, ""))(one)
+            self.wrong(name, says, hidden.get(slug, ""), both)(one)
         return code
 
     def valid(self, method: str | Code = "") -> Any:
@@ -267,9 +267,8 @@ class Row:
                     return (*args[:at], change(args[at]), *args[at + 1 :])
 
                 vars(code)["given"] = given
-                text = (one.slug, one.says, one.redone)
-                slug, says, redone = (part.format(name=name) for part in text)
-                yield Way("wrong", slug, says, code, redone, one.hidden)
+                slug, says = (text.format(name=name) for text in (one.slug, one.says))
+                yield Way("wrong", slug, says, code, one.hidden)
 
         self._entries.append(ways)
 
@@ -286,7 +285,7 @@ class Row:
                 def code(*args: Any, redo: Code = one.redo) -> Any:
                     return redo(self.truth(*args))
 
-                self._keep(Way("wrong", one.slug, one.says, code, one.redone))
+                self._keep(Way("wrong", one.slug, one.says, code))
 
     def reached_by(
         self,
@@ -408,9 +407,9 @@ class Row:
     def _of_any_size(self) -> HeldOut:
         return HeldOut(
             ANY_SIZE,
-            "Your function is right for ordinary inputs, but not for the smallest and "
-            "the largest ones, or at a limit. The lab or a later task uses such "
-            "inputs. Does a guard, a clamp or a tolerance change them?",
+            "Your function is right for ordinary inputs, but wrong for very small or "
+            "very large ones, or exactly at a limit. The lab or a later task uses such "
+            "inputs. Does a guard, a clamp or a tolerance in your code change them?",
             lambda rng: [tuple(call) for draw in self._spans for call in draw(rng)],
             relative=True,
         )
@@ -418,8 +417,7 @@ class Row:
     def _mistakes(self) -> list[Mistake]:
         read = self.ask.in_turn
         return [
-            Mistake(w.slug, w.says, read(w.code), w.redone, w.reached)
-            for w in self.named
+            Mistake(w.slug, w.says, read(w.code), w.both, w.reached) for w in self.named
         ]
 
     def _inputs(self, rng: Draw) -> list[tuple[Any, ...]]:

@@ -27,9 +27,9 @@ SAYS = {
     "negated": "one sign is reversed",
     "order": "two operands are in the wrong order",
     "left-out": "a part of the formula is missing",
-    "operation": "one operation is wrong",
+    "operation": "one operator is wrong",
     "sign-lost": "a sign is lost, because an absolute value is taken",
-    "name": "one variable is used in the place of another",
+    "name": "one variable is used where another belongs",
     "index": "an index or a range is wrong",
     "number": "a number in the formula is wrong",
     "factor": "a factor of two is missing, or one too many",
@@ -39,7 +39,7 @@ SAYS = {
     "squared": "a square is missing, or one too many",
     "exchanged": "two variables are swapped",
     "scaled": "the result is multiplied or divided by one variable too many",
-    "function": "one function is used in the place of another",
+    "function": "one function is used where another belongs",
     "condition": "a condition is wrong",
     "line": "one line is missing, repeated, or in the wrong place",
     "clamp": "a limit is missing, or is applied on one side only",
@@ -50,7 +50,7 @@ SAYS = {
     "diagonal": "only a part of a matrix is used",
     "entries": "the entries of a list or vector are in the wrong order",
     "entry-zero": "one entry of a list or vector is missing, as if it were 0",
-    "entry-twice": "one entry of a list or vector is used in the place of another",
+    "entry-twice": "one entry of a list or vector is used where another belongs",
     "entry-some": "only some entries of a list or vector are used",
     "added": "a term is added that does not belong to the formula",
 }
@@ -59,6 +59,7 @@ TELLING = {
     "sign", "negated", "sign-lost", "left-out", "factor", "transpose", "inverse",
     "squared", "root", "exchanged", "order", "unit", "rounded",
 }  # fmt: skip
+ORDERED = {ast.List: "entries", ast.Tuple: "entries", ast.Call: "arguments"}
 OF_A_PART = {
     ast.Add: "a term is missing", ast.Sub: "a term is missing",
     ast.Mult: "a factor is missing", ast.MatMult: "a factor is missing",
@@ -73,13 +74,25 @@ def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
     """
     found = next(([one] for one in found if own_line(m, one)), list(found[:2]))
     texts = [known_text(m, one) for one in found]
-    says = told(m, found[0])
+    says = _of_the_formula(m, found[0])
     if len(found) > 1 and all(texts):
         some = list(dict.fromkeys(what(one) for one in found))
         says = f"either {', or '.join(some)}" if len(some) > 1 else some[0]
-        says += f": your output equals the correct formula {', or '.join(texts)}"
+        says += f", as in {' or '.join(texts)}"
     how = m.with_error(f"{REDONE} {evidence(True)}")
     return Finding(f"slip-{found[0].kind}", f"{capitalised(says)}. {how}")
+
+
+def _of_the_formula(m: Any, mutant: Mutant) -> str:
+    """Return `told`, as a change of the correct formula where no line has it.
+
+    Another algorithm may have no such bracket or number, although its output equals
+    that of the changed formula.
+    """
+    says = told(m, mutant)
+    if tells(mutant) or own_line(m, mutant) or known_text(m, mutant):
+        return says
+    return f"your output equals the correct formula with one change: {says}"
 
 
 def shows(m: Any, mutant: Mutant) -> bool:
@@ -87,6 +100,7 @@ def shows(m: Any, mutant: Mutant) -> bool:
     return bool(own_line(m, mutant) or known_text(m, mutant) or gloss(mutant))
 
 
+LONG = 80  # characters; a longer line is named by its number alone
 COMPARES = (ast.Compare, ast.IfExp, ast.BoolOp)
 CHOOSES = ("where", "clip", "min", "max", "minimum", "maximum", "argmin", "argmax")
 
@@ -125,12 +139,13 @@ def half(m: Any, mutant: Mutant) -> str:
 def told(m: Any, mutant: Mutant) -> str:
     """Return a clause on a mutant that stands alone."""
     if line := own_line(m, mutant):
-        return f"line {line.number}, `{line.text}`: {what(mutant, line)}"
+        code = f", `{line.text}`" if len(line.text) <= LONG else ""
+        return f"in line {line.number}{code}, {what(mutant, line)}"
     if text := known_text(m, mutant):
-        return f"{what(mutant)}: your output equals the correct formula {text}"
+        return f"{what(mutant)}, as in {text}"
     says = f"{what(mutant)}{_or_transposed(mutant)}"
     if step := gloss(mutant):
-        return f"{says}, in this step: {step}"
+        return f'{says} in the step "{step}"'
     return says
 
 
@@ -168,6 +183,8 @@ def _of_an_expression(
         return f"the sign of `{its}` is reversed"
     if mutant.kind == "name" and isinstance(new, ast.Name) and (its := _own(new, line)):
         return _another_name(mutant, node, new, its)
+    if mutant.kind == "order" and (parts := ORDERED.get(type(node))):
+        return f"two {parts} are in the wrong order"
     if mutant.kind == "order" and isinstance(node, ast.BinOp):
         pair = [_own(one, line) for one in (node.left, node.right)]
         if all(pair):
@@ -180,8 +197,8 @@ def _another_name(mutant: Mutant, node: ast.expr, new: ast.Name, its: str) -> st
     meaning = mutant.body.meaning(new.id)
     wrong = f"`{its}` ({meaning})" if meaning else f"`{its}`"
     right = mutant.body.meaning(node.id) if isinstance(node, ast.Name) else ""
-    other = f"the place of another value ({right})" if right else "a wrong place"
-    return f"{wrong} is used in {other}"
+    other = f"another value ({right}) belongs" if right else "another value belongs"
+    return f"{wrong} is used where {other}"
 
 
 def _own(node: ast.expr, line: Line | None) -> str:
@@ -226,13 +243,13 @@ def gloss(mutant: Mutant) -> str:
 
 
 def known_text(m: Any, mutant: Mutant) -> str:
-    """Return "with `kp * e + ed`", or "" where a student has not seen its names."""
+    """Return the changed formula, or "" where a student has not seen its names."""
     text = mutant.text
     code = text.removeprefix("without ")
     names = _names(code)
     if not names - set(MODULES) or not names <= _known(m, mutant):
         return ""
-    return f"with `{text}`" if code == text else f"without `{code}`"
+    return f"`{text}`" if code == text else f"the formula without `{code}`"
 
 
 def _names(text: str) -> set[str]:

@@ -17,6 +17,7 @@ from labkit.judge.answers import (
     all_match,
     capitalised,
     content,
+    of_result,
     own,
     parts,
     plain,
@@ -25,7 +26,7 @@ from labkit.judge.ask import Ask, Case
 from labkit.judge.hypothesis import equals, evidence
 from labkit.judge.kinds import one_factor
 from labkit.judge.matcher import Calls, Code, Matcher
-from labkit.judge.mistake import Finding, Mistake
+from labkit.judge.mistake import REDONE, Finding, Mistake
 from labkit.judge.mutant import FAR, Mutant
 from labkit.judge.sentence import has_its_kind, of_mutants, own_line, shows, tells
 
@@ -120,8 +121,8 @@ def of_the_kind(m: Matcher, digits: bool = True) -> Finding | None:
             exact = equals(m.ask.kinds, m.S, again)
             if again and (exact or not digits):
                 found = with_evidence(m, one, exact)
-                called = f"{kind.called}: " if len(m.S) > 1 and kind.called else ""
-                return Finding(found.slug, called + found.message)
+                called = kind.called if len(m.S) > 1 else ""
+                return Finding(found.slug, of_result(found.message, called))
     return None
 
 
@@ -138,9 +139,10 @@ def of_answers(m: Matcher) -> Finding | None:
 
 def _changed_answer(m: Matcher, i: int | None, says: str) -> Finding:
     called = m.ask.kinds[i].called if i is not None and len(m.T) > 1 else ""
-    what = f"{capitalised(called)} is" if called else "Your output is"
-    how = m.with_error(f"the correct result with this change {evidence(True)}")
-    return Finding("answer-changed", f"{what} the correct result, but {says}. {how}")
+    what = f"{called} correctly" if called else "the correct result"
+    how = m.with_error(f"{REDONE} {evidence(True)}")
+    says = f"Your code computes {what}, but then it {says}. {how}"
+    return Finding("answer-changed", says)
 
 
 def _with_result(i: int | None, change: Code, T: Parts) -> Parts:
@@ -175,7 +177,7 @@ def of_arguments(m: Matcher, digits: bool = True) -> Finding | None:
         if m.main.difference.fits(m.i, answer, digits) and m.holds(code, digits):
             if one.slug in changes.OF_UNITS and (unit := _in_another_unit(m)):
                 return unit
-            says = f"Your output is the correct result for other arguments: {one.says}."
+            says = f"Your code computes the result for other arguments: {one.says}."
             redone = "the reference solution with these arguments"
             how = m.with_error(f"{redone} {evidence(m.exact(code))}")
             return Finding(f"argument-{one.slug}", f"{says} {how}")

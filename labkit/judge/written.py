@@ -11,7 +11,7 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Question
 from labkit.judge import fits
-from labkit.judge.answers import InTurn
+from labkit.judge.answers import InTurn, as_real
 from labkit.judge.ask import Ask, right_answers
 from labkit.judge.mistake import Finding
 from labkit.judge.other_kinds import Mask
@@ -86,6 +86,9 @@ class Answered(InTurn):
         except ValueError as error:
             says = f"truth {stops_with(error.__cause__ or error)}"
             raise self.fault(says) from None
+        arrays = (c for c in columns if isinstance(c, np.ndarray))
+        if any(np.iscomplexobj(one) for column in arrays for one in column):
+            answers = list(map(as_real, answers))
         found = read(self.kind, answers)
         if isinstance(found, Finding):
             says = found.message.replace("Your function returns", "truth returns")

@@ -16,7 +16,7 @@ from labkit.lesson.starter import function_lines, put_back
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-BORROWED = "# borrowed from the kit"  # in a function that is not the student's own
+BORROWED = "# borrowed from the kit"  # this comment marks a function of the kit
 
 
 @cache  # a lab's borrowed function asks at every call, thousands of times

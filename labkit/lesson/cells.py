@@ -25,9 +25,10 @@ _BLOCK = re.compile(rf"^{BEGIN}\n(.*?)^{END}\n\n?\n?", re.MULTILINE | re.DOTALL)
 
 @dataclass
 class Cells:
-    """What the cells of a notebook define at their top level; the last one counts."""
+    """The definitions at the top level of a notebook's cells; the last one counts."""
 
-    functions: dict[str, str] = field(default_factory=dict)  # by name, as text
+    # The text of each function, by name.
+    functions: dict[str, str] = field(default_factory=dict)
     others: dict[str, str] = field(default_factory=dict)  # imports and constants
     # Functions whose last cell does not parse: "line 2: '(' was never closed".
     broken: dict[str, str] = field(default_factory=dict)
@@ -111,7 +112,7 @@ def with_functions(script: str, cells: Cells, names: Iterable[str]) -> str:
         cells: of the notebook.
         names: of the functions that are taken.
     """
-    script, own = apart(script)
+    script, own = split_script(script)
     for name in names:
         script = put_back(script, cells.functions[name], (name,))
     known = {**own, **cells.others, **cells.functions}
@@ -125,7 +126,7 @@ def with_functions(script: str, cells: Cells, names: Iterable[str]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def apart(script: str) -> tuple[str, dict[str, str]]:
+def split_script(script: str) -> tuple[str, dict[str, str]]:
     """Return a script without the notebook's own definitions, and these by name."""
     found = _BLOCK.search(script)
     if not found:

@@ -1,4 +1,4 @@
-"""What a guide's numbers hang on: each constant turned by two, measured, explained.
+"""Sensitivity of a guide's numbers: each constant is doubled, measured, explained.
 
 A day's `constants.py` lists them. A number is a function whose arguments are all the
 constants that it could depend on; their defaults are what the lab uses:
@@ -29,30 +29,30 @@ from labkit.lesson.day import Day
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-# What a guide asks for where it shows the table of a day.
+# A guide shows the table of a day with this command.
 TABLE_OF = "python scripts/constants.py {} | table"
-ROUNDING = 1e-8  # what is smaller is no number of anybody's
+ROUNDING = 1e-8  # a smaller number is a rounding error
 Computed = TypeVar("Computed", bound=Callable[..., float])
 
 
 @dataclass(frozen=True)
 class Effect:
-    """What a constant that is turned must do to a number, and why."""
+    """The expected effect of a doubled constant on a number, and its reason."""
 
-    least: float  # of the new number over the old
+    least: float  # the smallest ratio of the new number to the old
     most: float
-    says: str  # in words, for the table; "" where the new number says it
+    says: str  # the words in the table; "" if the new number is enough
     why: str
     to: Any = None  # the constant's other value; None is twice the one it has
 
     @property
     def moves(self) -> bool:
-        """Whether the number must change."""
+        """The number must change."""
         return not self.least <= 1.0 <= self.most
 
     @property
     def expected(self) -> str:
-        """What it must do, in words."""
+        """The expected effect in words."""
         if self.least == self.most == 1.0:
             return "it stays"
         return self.says or f"× {self.least:g} to × {self.most:g}"
@@ -100,8 +100,8 @@ def between(least: float, most: float, why: str, *, to: Any = None) -> Effect:
 class Turn:
     """One constant turned: what the number is then."""
 
-    name: str  # of the argument
-    constant: str  # in words, with both values
+    name: str  # the name of the argument
+    constant: str  # the constant in words, with both values
     then: float
     effect: Effect
 
@@ -110,8 +110,8 @@ class Turn:
 class Number:
     """One number of a guide."""
 
-    name: str  # in words
-    form: str  # how it is printed: "{:.1f} mm"
+    name: str  # the name in words
+    form: str  # the format in which it is printed: "{:.1f} mm"
     compute: Callable[..., float]
     effects: dict[str, Effect]
 
@@ -124,7 +124,7 @@ class Number:
         """Return whether a constant did what its effect says."""
         if turn.effect.least == turn.effect.most == 1.0:
             return self.printed(turn.then) == self.printed(now)
-        if not now:  # of which every multiple is 0
+        if not now:  # every multiple of 0 is 0
             return not turn.effect.moves
         low, high = sorted([turn.effect.least * now, turn.effect.most * now])
         return bool(low <= turn.then <= high)

@@ -31,21 +31,21 @@ from labkit.lesson.week import (
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-LOG = "metrics/metrics.csv"  # from the top of a clone
-NUMBERS = 100_000  # of one answer, where a task does not say; a pose has 16
-# What a grader's machine gives a task at most, whatever its manifest asks for.
+LOG = "metrics/metrics.csv"  # the path from the top of a clone
+NUMBERS = 100_000  # the limit of one answer, unless a task sets another; a pose has 16
+# A grader's machine gives a task at most this, whatever its manifest asks for.
 MOST = {"seconds": 60.0, "memory": 4.0, "numbers": 1_000_000}
-MOST_LAB = 90.0  # and a lab's run, in seconds
+MOST_LAB = 90.0  # the limit of a lab's run, seconds
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What a file of a day's may take."""
+    """The limits of a day's file."""
 
-    # For all calls of a task, where it says more than the usual.
+    # The limit of all calls of a task, if the task has its own.
     seconds: Mapping[str, float] = field(default_factory=dict)
     memory: float = 1.0  # GB, of the process
-    numbers: int = NUMBERS  # of one answer
+    numbers: int = NUMBERS  # the limit of one answer
     extras: tuple[str, ...] = ()  # packages that it may import, pinned: "scipy==1.17.1"
 
 
@@ -55,17 +55,19 @@ class Task:
 
     id: str  # day.task, such as "1.4"; the same in code, output and worksheet
     title: str
-    functions: tuple[str, ...]  # what the student writes
+    functions: tuple[str, ...]  # the functions that the student writes
     read: str  # the section to re-read
-    hints: tuple[str, ...] = entry(least=2)  # in the order to give them
+    # The hints, in the order in which they are given.
+    hints: tuple[str, ...] = entry(least=2)
     needs: tuple[str, ...] = ()  # ids of the tasks that its functions may call
     optional: bool = False  # a side quest: no part of what is handed in or graded
     # Ids and names of functions that it had before; the names in the order of the
     # functions, also where only one has another name.
     was: tuple[str, ...] = ()
-    seconds: float = 10.0  # for all its calls; one may take a third of it
+    # The limit for all its calls; one call may take a third of it.
+    seconds: float = 10.0
     memory: float = 1.0  # GB
-    numbers: int = NUMBERS  # in one answer
+    numbers: int = NUMBERS  # the limit of one answer
 
     @property
     def renamed(self) -> list[tuple[str, str]]:
@@ -82,30 +84,32 @@ class Task:
 class Day:
     """One day of the course; paths are relative to the week's folder."""
 
-    number: int  # from 1 to 47
+    number: int  # a number between 1 and 47
     title: str
     see: str  # "method: what its lab shows with it", for the tables of days
     script: str  # file name of the lab script, in src/ and in work/
     guide: str  # the lab guide
-    minutes: int  # how long it takes
+    minutes: int  # the time that the day takes
     was: tuple[str, ...] = ()  # file names that the lab script had before
     # Modules of robo47 that are its answers; later days may import them.
     library: tuple[str, ...] = ()
-    limit: float = 1e-8  # what an error must be under where no metric says more
-    tasks: tuple[Task, ...]  # in the order to do them
+    limit: float = 1e-8  # the limit of an error unless a metric has its own
+    tasks: tuple[Task, ...]  # the tasks, in the order in which they are done
     # The student's picture, "" where there is none; pictures that do not count as it.
     figure: str = entry("", at="figure.path", needed=True)
-    # Which of FIGURES `make figures` draws as it, with the functions of the student's
-    # file; "" where the arm alone is what is asked for.
+    # `make figures` draws this one of FIGURES with the functions of the student's file;
+    # "" asks for a picture of the arm alone.
     draw: str = entry("", at="figure.draw")
     kit_figures: tuple[str, ...] = entry((), at="figure.not_a_copy_of")
     # The student's worksheet, "" where there is none; what its glossary defines.
     worksheet: str = entry("", at="worksheet.path", needed=True)
     terms: tuple[str, ...] = entry((), at="worksheet.terms")
-    drawings: int = entry(0, at="worksheet.drawings")  # how many it holds
-    questions: int = entry(0, at="worksheet.questions")  # how many it asks
+    # The number of drawings in the worksheet.
+    drawings: int = entry(0, at="worksheet.drawings")
+    # The number of questions in the worksheet.
+    questions: int = entry(0, at="worksheet.questions")
     metrics: tuple[Metric, ...] = ()  # rows of the log
-    # Of a processor, for the lab's run with a student's functions.
+    # The processor time of the lab's run with a student's functions.
     lab_seconds: float = entry(30.0, at="limits.lab_seconds")
     folder: Path = field(repr=False)  # the week's; no entry
 
@@ -152,7 +156,7 @@ class Day:
 
     @property
     def limits(self) -> Limits:
-        """What the code of its tasks may take."""
+        """The limits of the code of its tasks."""
         return Limits(
             {task.id: task.seconds for task in self.tasks},
             max(task.memory for task in self.tasks),
@@ -162,7 +166,7 @@ class Day:
 
     @property
     def files(self) -> dict[str, str]:
-        """What it hands in: paths from the clone's top, by what they are."""
+        """The paths of its hand-in from the clone's top, by their kind."""
         week = self.folder.name
         found = {
             "script": f"{week}/{WORK}/{self.script}",

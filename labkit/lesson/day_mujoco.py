@@ -43,4 +43,4 @@ def install() -> None:
         sys.meta_path.insert(0, BesideTheLab())
 
 
-install()  # to import this module is to want it
+install()  # an import of this module is enough

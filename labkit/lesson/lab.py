@@ -1,4 +1,4 @@
-"""What every day's lab script does the same way: say, check, record, conclude.
+"""The common actions of all lab scripts: print, check, record, conclude.
 
     lab = Lab(__file__, __doc__)
     lab.step("2. The same by hand")
@@ -26,9 +26,10 @@ from labkit.base import cli, store
 from labkit.base.text import count, number_of
 from labkit.lesson import day_mujoco  # noqa: F401 (a lab's next import needs it)
 from labkit.lesson.day import day_of
-from labkit.lesson.hidden import Output
+from labkit.lesson.hidden_numbers import Output
 from labkit.lesson.metric import Metric
-from labkit.lesson.predicted import predictions, rows_asked, with_measured
+from labkit.lesson.predictions import predictions, rows_asked, with_measured
+from labkit.lesson.training import training
 from labkit.lesson.writers import file_mark
 from robo47.paths import METRICS_CSV, shown
 
@@ -110,7 +111,7 @@ class Lab:
     def _read_worksheet(self) -> str:
         try:
             data = (self.day.folder / self.day.worksheet).read_bytes()
-            return data.decode("utf-8")  # with its own line ends
+            return data.decode("utf-8")  # the line ends stay as they are
         except (OSError, UnicodeDecodeError):  # `make check` says so
             return ""
 
@@ -147,6 +148,10 @@ class Lab:
             yield
         except NotImplementedError as gap:
             print(cli.wrapped(f"to do: {gap}", "  "))
+
+    def training(self, title: str, steps: int) -> Iterator[int]:
+        """Yield the numbers of a training's steps, from 1, and show a bar meanwhile."""
+        return training(title, steps)
 
     def show(self, title: str, matrix: ArrayLike, decimals: int = 6) -> None:
         """Print a matrix (m, n) or a vector (n,) with aligned columns."""

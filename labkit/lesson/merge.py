@@ -89,7 +89,7 @@ def renewed(day: Day, text: str, before: Iterable[str], now: str) -> str:
     starter = make_starter(now, day.script, day.number)
     if not starters:
         return text
-    oldest = min(starters, key=lambda one: _apart(one, text))
+    oldest = min(starters, key=lambda one: _line_differences(one, text))
     text = arguments_as_now(text, oldest, starter)
     base = arguments_as_now(oldest, oldest, starter)
     both_changed = _CONFLICT.search(_merge_file(base, text, starter))
@@ -108,7 +108,7 @@ def _starters(day: Day, before: Iterable[str]) -> list[str]:
     return found
 
 
-def _apart(starter: str, text: str) -> tuple[int, int]:
+def _line_differences(starter: str, text: str) -> tuple[int, int]:
     """Return how many lines of a starter a lab has not, and how many it has besides."""
     lines, own = (Counter(t.split("\n")) - Counter({"": 1000}) for t in (starter, text))
     return (lines - own).total(), (own - lines).total()

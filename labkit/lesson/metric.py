@@ -1,11 +1,11 @@
-"""What a row of the log must be: a number, and its range."""
+"""A number that the log must have, and its range."""
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-Row = Mapping[str, Any]  # of the log, by column
+Row = Mapping[str, Any]  # a row of the log, by column
 
 
 @dataclass(frozen=True)
@@ -16,7 +16,7 @@ class Metric:
     metric: str
     max: float | None = None
     min: float | None = None
-    says: str = field(default="", compare=False)  # what it is, in words
+    says: str = field(default="", compare=False)  # the quantity in words
     unit: str = field(default="", compare=False)
 
     @property

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from labkit.lesson.day import Day, all_days
 
 Place = tuple[int, int]  # a line, from 1, and a column of it, in bytes
-Edits = dict[Place, tuple[str, str]]  # what is there, and what shall be
+Edits = dict[Place, tuple[str, str]]  # the old and the new name at each place
 
 
 def called_as_now(day: Day, text: str) -> str:

@@ -1,4 +1,4 @@
-"""What shows in a student's file unrun: a gap left in, a function renamed or doubled.
+"""Mistakes that a file shows without a run: a gap, a function renamed or doubled.
 
 Also what is no Python: lines of a notebook, marks of a merge, a pointer of Git LFS.
 """
@@ -15,7 +15,7 @@ OTHER_PACKAGES = ("IPython", "PIL", "cv2", "matplotlib", "mpl_toolkits", "numba"
                   "tqdm")  # fmt: skip
 _POINTER = "version https://git-lfs"
 _NOTEBOOK = re.compile(r'\s*\{\s*$|\s*\{\s*"cells"')
-# What the line that Python cannot read begins with, and what to say of it.
+# Beginnings of lines that Python cannot read, each with a sentence for the student.
 _NO_PYTHON = (
     (r"\s*%+\w", "A line that begins with % is a command of a notebook: delete it."),
     (r"\s*!\w", "A line that begins with ! is a command of a notebook: delete it."),
@@ -90,7 +90,7 @@ def other_packages(source: str) -> tuple[str, ...]:
     Of an import in a `try` the file may do without.
     """
     if not any(name in source for name in OTHER_PACKAGES):
-        return ()  # as nearly always: the file is not parsed for it
+        return ()  # the file need not be parsed, which is the usual case
     found = (name.partition(".")[0] for name in _imported(_parsed(source)))
     return tuple(sorted(set(found) & set(OTHER_PACKAGES)))
 

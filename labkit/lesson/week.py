@@ -24,7 +24,8 @@ from robo47.paths import ROOT, shown
 # A week's folder of the student's own labs; scripts/kit.py, Makefile and .gitignore,
 # which read no Python of the kit's, name it too.
 WORK = "work"
-NOTEBOOKS = "notebooks"  # of the labs with answers, as `make notebook` writes them
+# The folder in which `make notebook` writes the labs with answers.
+NOTEBOOKS = "notebooks"
 
 _EXPECTED = {
     str: "a text",
@@ -50,10 +51,10 @@ class Week:
 
     number: int
     name: str  # "foundations"; the folder is w1-foundations
-    title: str  # what the week is about, for its page
-    days: tuple[int, ...]  # in order; each has its dayN/day.toml here
+    title: str  # the subject of the week, for its page
+    days: tuple[int, ...]  # the days in order; each has its dayN/day.toml here
     soon: tuple[Soon, ...] = ()  # announced, not written
-    # Which robot `make view` opens, of `panda.load` or a scene of this folder:
+    # `make view` opens this robot of `panda.load`, or a scene of this folder:
     # "arm.xml". Questions, lab runs and pictures are the Panda's; a row asks for
     # another robot with `Robot(path)`, a lab loads it in `main`; the check then runs
     # the lab with that robot, too.
@@ -61,13 +62,13 @@ class Week:
     # A module of robo47 with what `robo47.attempt` asks of it.
     capstone: str = ""
     extras: tuple[str, ...] = ()  # packages that student code finds: "scipy==1.17.1"
-    # What the student writes for the week beside the files of its days, as patterns.
+    # Patterns of the files that the student writes for the week and not for a day.
     retrospectives: tuple[str, ...] = ("docs/RETRO_*.md",)
     folder: Path = field(repr=False)  # no entry
 
     @property
     def heading(self) -> str:
-        """What it is called: "Week 1: foundations"."""
+        """The heading of the week: "Week 1: foundations"."""
         return f"Week {self.number}: {self.name.replace('-', ' ')}"
 
     @property

@@ -1,4 +1,4 @@
-"""Which file wrote a row of the log, and what the row is worth now.
+"""The file that wrote a row of the log, and whether the row still counts.
 
 The file's mark, as it was then, stands at the end of the row's notes.
 """

@@ -16,7 +16,7 @@ from pathlib import Path
 from labkit.base.git import short_sha
 from labkit.base.text import count
 from labkit.log.logfile import append_or_keep, command
-from labkit.log.rows import COLUMNS, Row, encode, typed
+from labkit.log.rows import COLUMNS, Row, checked_row, encode
 from labkit.log.scan import scan
 from robo47.errors import Robo47Error
 from robo47.paths import HOME, METRICS_CSV, ROOT, shown
@@ -50,7 +50,7 @@ def append_row(
         Robo47Error: an unknown field, a value its column cannot hold, or a file
             that cannot take the row; then the message carries the row's text.
     """
-    row, faults = typed(_filled(fields), allow_nonfinite)
+    row, faults = checked_row(_filled(fields), allow_nonfinite)
     if faults:
         raise Robo47Error(f"not recorded: {'; '.join(faults)}.")
     append_or_keep(_file(path), encode(row), sync)
@@ -75,7 +75,7 @@ def append_rows(
     """
     added, faults = [], []
     for number, fields in enumerate(rows, 1):
-        row, wrong = typed(_filled(fields), allow_nonfinite)
+        row, wrong = checked_row(_filled(fields), allow_nonfinite)
         added.append(row)
         if wrong:
             faults.append(f"row {number}: {'; '.join(wrong)}")

@@ -20,8 +20,8 @@ from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 OWN_LOG = ROOT / "metrics" / "metrics.csv"
-UNSAVED = ".unsaved"  # beside the log: rows that it could not take
-CUT = ".repairs"  # beside the log: lines that had no end when the next row came
+UNSAVED = ".unsaved"  # the file beside the log with rows that it could not take
+CUT = ".repairs"  # the file beside the log with lines that were cut off
 TRIES = 5
 # An echo takes no lock, and half of it shows while it is being written: look twice.
 MID_WRITE_S = 0.005
@@ -77,7 +77,7 @@ def append(path: Path, text: str, sync: bool) -> None:
             if not text:
                 return
     except OSError as error:
-        why = _in_words(error, str(path))
+        why = _explanation(error, str(path))
         raise Robo47Error(f"{shown(path)}: {why}") from None
     raise Robo47Error(
         f"{shown(path)} keeps being replaced by another program."
@@ -268,7 +268,7 @@ def _keep(path: Path, text: str) -> str:
     return f"{rows}  kept nowhere but here: copy {them}"
 
 
-def _in_words(error: OSError, name: str) -> str:
+def _explanation(error: OSError, name: str) -> str:
     """Return what an error with the log of that name means, and what to do about it."""
     if os.path.isdir(name):
         return "a folder is in the log's place. Move that folder away."

@@ -45,7 +45,7 @@ LONGEST = 131_072
 Cell = str | int | float | None
 Row = dict[str, Cell]
 
-# What would break "one row, one line" or "one UTF-8 file".
+# These characters would break "one row, one line" or "one UTF-8 file".
 _UNWRITABLE = re.compile("[\r\n\0\ud800-\udfff]")
 # A spreadsheet runs such a text as a formula; the apostrophe makes it plain text.
 _FORMULA = re.compile("'*[=+@-]")
@@ -139,7 +139,9 @@ def _other_columns(lines: list[str]) -> str:
     return f"The names are quoted or in capitals. {_CONVERT}"
 
 
-def typed(fields: Mapping[str, object], allow_nonfinite: bool) -> tuple[Row, list[str]]:
+def checked_row(
+    fields: Mapping[str, object], allow_nonfinite: bool
+) -> tuple[Row, list[str]]:
     """Return a full row with each column's own type, and every fault in words.
 
     Args:
@@ -164,7 +166,7 @@ def typed(fields: Mapping[str, object], allow_nonfinite: bool) -> tuple[Row, lis
             )
             continue
         try:
-            row[name] = _typed(name, given)
+            row[name] = _checked_cell(name, given)
         except ValueError as error:
             faults.append(str(error))
     return row, faults
@@ -192,7 +194,7 @@ def decode(cells: list[str]) -> Row:
     for name, text in zip(COLUMNS, cells, strict=True):
         if text[:1] == "'" and _GUARDED.match(text):
             text = text[1:]
-        row[name] = _typed(name, text)
+        row[name] = _checked_cell(name, text)
     return row
 
 
@@ -206,7 +208,7 @@ def is_open_quote(line: str) -> bool:
     return reader.line_num > 1
 
 
-def _typed(name: str, given: object) -> Cell:
+def _checked_cell(name: str, given: object) -> Cell:
     """Return a value with its column's type; ValueError says what is expected."""
     if name in INTEGERS or name == "value":
         return None if given is None or given == "" else _number(name, given)

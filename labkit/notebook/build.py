@@ -16,7 +16,7 @@ from typing import Any
 from labkit.lesson.cells import text_of
 from labkit.lesson.day import Day, Task
 from labkit.lesson.lab_module import read_script
-from labkit.lesson.predicted import rows_asked
+from labkit.lesson.predictions import rows_asked
 from labkit.lesson.sealed import is_sealed
 from labkit.lesson.starter import find_regions, starter_of
 from labkit.notebook import guide, worksheet
@@ -194,7 +194,7 @@ def _base(day: Day, repository: str) -> str:
 def _task(task: Task, functions: str, checked: bool) -> Iterator[Cell]:
     """Yield a cell for each function of a task, and one that checks them."""
     for name in task.functions:
-        written = guide.typed(text_of(functions, name))
+        written = guide.with_notebook_commands(text_of(functions, name))
         yield code(written, task=task.id, function=name)
     if checked:
         yield code(f'check("{task.id}")')
@@ -258,7 +258,7 @@ def numbers_by_step(source: str, names: Iterable[str]) -> dict[str, int]:
     }
     found: list[tuple[str, int]] = []
     step = 0
-    for kind, pattern in _told(defined["main"], defined):
+    for kind, pattern in _calls(defined["main"], defined):
         if kind == "step" and pattern[:1].isdigit():
             step = int(pattern.partition("\\.")[0])
         elif kind != "step":
@@ -266,7 +266,7 @@ def numbers_by_step(source: str, names: Iterable[str]) -> dict[str, int]:
     return {name: s for name in names for text, s in found if re.fullmatch(text, name)}
 
 
-def _told(
+def _calls(
     function: ast.FunctionDef, defined: dict[str, ast.FunctionDef]
 ) -> Iterator[tuple[str, str]]:
     """Yield a lab's methods as they are called, each with a pattern of its text."""
@@ -285,7 +285,7 @@ def _told(
                 yield kind, ", ".join(_pattern(one, texts) for one in call.args)
             case ast.Name(id=name) if name in defined and name != function.name:
                 rest = {n: f for n, f in defined.items() if n != function.name}
-                yield from _told(defined[name], rest)
+                yield from _calls(defined[name], rest)
 
 
 def _pattern(node: ast.expr, texts: dict[str, str]) -> str:

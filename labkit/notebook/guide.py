@@ -116,7 +116,7 @@ def asks_all(block: Block) -> bool:
 
 def plain(block: Block) -> str:
     """Return a block without the marks of its outputs, which only the kit reads."""
-    text = typed(_OUTPUT.sub(r"\1", block.text))
+    text = with_notebook_commands(_OUTPUT.sub(r"\1", block.text))
     return _cell_of(text) if text.startswith("```sh\n") else text
 
 
@@ -133,7 +133,7 @@ def _cell_of(fence: str) -> str:
     return "\n".join([f"```{language}", *typed_lines, "```"])
 
 
-def typed(text: str) -> str:
+def with_notebook_commands(text: str) -> str:
     """Return a text with the commands that one types in a notebook."""
     for shell, cell in _TYPED:
         text = shell.sub(cell, text)

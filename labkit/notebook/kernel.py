@@ -1,4 +1,4 @@
-"""What the cells of a day's notebook call: check, hint, run, predict, answer, load.
+"""Functions for the cells of a notebook: check, hint, run, predict, answer, load.
 
     from labkit.notebook.kernel import begin, check
     begin(2)
@@ -26,48 +26,48 @@ from types import EllipsisType
 from typing import Any, ParamSpec, TypeVar
 
 from labkit.base import store
-from labkit.lesson.cells import apart, definitions, reverted, text_of
+from labkit.lesson.backup import with_ends_of
+from labkit.lesson.cells import definitions, reverted, split_script, text_of
 from labkit.lesson.day import Day, find_day
-from labkit.lesson.hidden import WORD
-from labkit.lesson.kept import with_ends_of
+from labkit.lesson.hidden_numbers import WORD
 from labkit.lesson.lab_module import read_script
-from labkit.lesson.predicted import rows_asked
+from labkit.lesson.predictions import rows_asked
 from labkit.notebook import sync, worksheet
-from labkit.notebook.guide import typed
-from labkit.notebook.show import Checked, Said
+from labkit.notebook.guide import with_notebook_commands
+from labkit.notebook.show import CheckResult, Message
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 P = ParamSpec("P")
 R = TypeVar("R")
-ANSWERS = "answers.json"  # in the kit's memory: what was written into worksheets
-_STEP = r"^{}\. .*?(?=^\d+\. |^\n|\Z)"  # of a lab's output
-_TRACEBACK = r"^Traceback \(most.*?^(?=\w[\w.]*: )"  # without its last line
+ANSWERS = "answers.json"  # the entries of worksheets, in the kit's store
+_STEP = r"^{}\. .*?(?=^\d+\. |^\n|\Z)"  # a step of a lab's output
+_TRACEBACK = r"^Traceback \(most.*?^(?=\w[\w.]*: )"  # a traceback without its last line
 _KINDS = {str: "text in quotation marks", int: "a whole number"}
 _now: list[Day] = []  # the day that was begun last
-_brought = [0]  # how many of the executed cells were in step with the file last
+_brought = [0]  # the number of executed cells that were last in step with the file
 
 
-def polite(example: str) -> Callable[[Callable[P, R]], Callable[P, R | Said]]:
+def polite(example: str) -> Callable[[Callable[P, R]], Callable[P, R | Message]]:
     """Return a decorator of a function whose errors for users become one line.
 
     Args:
         example: a right call; "{task}" stands for a task of the day.
     """
 
-    def decorate(function: Callable[P, R]) -> Callable[P, R | Said]:
+    def decorate(function: Callable[P, R]) -> Callable[P, R | Message]:
         @functools.wraps(function)
-        def asked(*args: P.args, **given: P.kwargs) -> R | Said:
+        def asked(*args: P.args, **given: P.kwargs) -> R | Message:
             if fault := _misuse(function, args, given):
                 task = _now[0].tasks[0].id if _now else "1.1"
                 right = example.format(task=task)
-                return Said(
+                return Message(
                     [f"{function.__name__}: {fault}; write, for example, {right}"]
                 )
             try:
                 return function(*args, **given)
             except (Robo47Error, NotImplementedError) as error:
-                return Said([str(error)])
+                return Message([str(error)])
 
         return asked
 
@@ -90,7 +90,7 @@ def _misuse(function: Callable[..., Any], args: Any, given: Any) -> str:
 
 
 @polite("begin(1)")
-def begin(number: int) -> Said:
+def begin(number: int) -> Message:
     """Begin a day: write its file if there is none, and make its modules importable.
 
     Args:
@@ -102,7 +102,7 @@ def begin(number: int) -> Said:
     _draw_without_display()
     said = _script("start_day.py", str(number))
     there = day.work.is_file()
-    return Said(said.splitlines()[: 1 if there else None])
+    return Message(said.splitlines()[: 1 if there else None])
 
 
 def _draw_without_display() -> None:
@@ -116,7 +116,7 @@ def _draw_without_display() -> None:
 
 
 @polite('check("{task}")')
-def check(task: str = "", *, keep: str = "") -> Checked:
+def check(task: str = "", *, keep: str = "") -> CheckResult:
     """Check one task, or the whole day, with the cells that you have run.
 
     Args:
@@ -132,19 +132,19 @@ def check(task: str = "", *, keep: str = "") -> Checked:
     told = _bring(day, keep)
     wanted = day.task(task).id if task else None
     found = check_once(day, day.work, wanted, secrets.randbits(32))
-    return Checked(found, told, hint)
+    return CheckResult(found, told, hint)
 
 
 @polite('hint("{task}")')
-def hint(task: str = "") -> Said:
+def hint(task: str = "") -> Message:
     """Show the next hint for a task, or for the first one that does not pass."""
     _bring(_day())
     told = _script("hint.py", *([task] if task else []), "--day", str(_day().number))
-    return Said([told])
+    return Message([told])
 
 
 @polite("run(step=1)")
-def run(step: int = 0, *, reveal: bool = False, **constants: Any) -> Said | None:
+def run(step: int = 0, *, reveal: bool = False, **constants: Any) -> Message | None:
     """Run the lab with your functions, or show one step of it.
 
     Args:
@@ -167,7 +167,7 @@ def run(step: int = 0, *, reveal: bool = False, **constants: Any) -> Said | None
         printed = _unlogged(day, day.work.read_bytes(), sheet, more)
     else:
         printed = _script("run_day.py", str(day.number))
-    print(typed(_shown(printed, step) if step else printed))
+    print(with_notebook_commands(_step_output(printed, step) if step else printed))
     return None
 
 
@@ -195,7 +195,7 @@ def _steps(lab: str) -> list[int]:
     return sorted({int(n) for n in re.findall(r"\.step\(\s*f?[\"'](\d+)\. ", lab)})
 
 
-def _shown(printed: str, step: int) -> str:
+def _step_output(printed: str, step: int) -> str:
     """Return what a lab prints in a step, or why it did not come so far."""
     flags = re.MULTILINE | re.DOTALL
     if found := re.search(_STEP.format(step), printed, flags):
@@ -208,7 +208,7 @@ def _shown(printed: str, step: int) -> str:
 
 
 @polite('predict("the row\'s name", 0.5)')
-def predict(number: str, value: object) -> Said:
+def predict(number: str, value: object) -> Message:
     """Write a prediction into the worksheet, before you see the number.
 
     Args:
@@ -217,18 +217,18 @@ def predict(number: str, value: object) -> Said:
     """
     words = "" if value is None or isinstance(value, EllipsisType) else str(value)
     if not words.strip():
-        return Said(
+        return Message(
             [f"Write your prediction of {number!r} in place of the three dots."]
         )
     if "|" in words or len(words.splitlines()) > 1:
         raise Robo47Error("a prediction is one line without the character |")
     path, sheet = _sheet(_day())
     _rewrite(path, worksheet.with_prediction(sheet, number, words.strip()))
-    return Said([f"Your prediction is in {shown(path)}."])
+    return Message([f"Your prediction is in {shown(path)}."])
 
 
 @polite('answer("question 1", "your words")')
-def answer(place: str, words: str) -> Said:
+def answer(place: str, words: str) -> Message:
     """Write an answer into the worksheet.
 
     Args:
@@ -236,7 +236,7 @@ def answer(place: str, words: str) -> Said:
         words: your answer, in Markdown.
     """
     if not words.strip():
-        return Said([f"Write your answer to {place!r} between the quotation marks."])
+        return Message([f"Write your answer to {place!r} between the quotation marks."])
     day = _day()
     path, sheet = _sheet(day)
     memory = store.read(ANSWERS)
@@ -244,22 +244,22 @@ def answer(place: str, words: str) -> Said:
     sheet = worksheet.with_answer(sheet, place, words, memory.get(key, ""))
     _rewrite(path, sheet)
     store.write(ANSWERS, memory | {key: words})
-    return Said([f"Your answer is in {shown(path)}."])
+    return Message([f"Your answer is in {shown(path)}."])
 
 
 @polite('load("the name of a function")')
-def load(name: str) -> Said:
+def load(name: str) -> Message:
     """Put the text of a function, as the day's file has it, into a new cell.
 
     Args:
         name: of the function.
     """
-    script, own = apart(read_script(_day().work))
+    script, own = split_script(read_script(_day().work))
     text = own.get(name) or text_of(script, name)
     if not text:
         raise Robo47Error(f"{shown(_day().work)} has no function {name}")
     _shell().set_next_input(text)
-    return Said(["The cell below has the text of the file. Run it, and it counts."])
+    return Message(["The cell below has the text of the file. Run it, and it counts."])
 
 
 @polite('picture("its name")')
@@ -359,7 +359,7 @@ def _bring(day: Day, keep: str = "") -> list[str]:
     """Put the executed cells into the day's file; return what is to be told of it."""
     sources = _executed()
     cells = definitions(sources)
-    told = sync.bring(day, cells, keep, reverted(sources, _brought[0])).told(day)
+    told = sync.bring(day, cells, keep, reverted(sources, _brought[0])).sentences(day)
     _brought[0] = len(sources)
     return [*told, *(f"The cell of {n}, {at}." for n, at in cells.broken.items())]
 

@@ -1,4 +1,4 @@
-"""What a cell of a notebook answers with: as text, and as HTML.
+"""The answers of a notebook's cell, as text and as HTML.
 
 Every answer follows Jupyter's protocol, so it is readable in JupyterLab, Colab and VS
 Code, in a dark theme (no colour of text or ground is set) and in a plain terminal.
@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 
 from labkit.check.report import Report, as_text, state_of
 from labkit.check.tasks import TaskResult
-from labkit.notebook.guide import typed
+from labkit.notebook.guide import with_notebook_commands
 from robo47.checks import Array
 
-_MARK = {"passed": "✓", "to do": "·"}  # of a state; of any other ✗
+_MARK = {"passed": "✓", "to do": "·"}  # every other state has ✗
 _CELL = "style='text-align:left;vertical-align:top;padding:.2em .8em'"
 
 
-class Said:
+class Message:
     """Sentences and, optionally, more HTML."""
 
     def __init__(self, lines: Sequence[str], more: str = "") -> None:
@@ -36,16 +36,16 @@ class Said:
 
     def __repr__(self) -> str:
         """Return the paragraphs."""
-        return typed("\n".join(self.lines))
+        return with_notebook_commands("\n".join(self.lines))
 
     def _repr_html_(self) -> str:
         style = "style='white-space:pre-line'"  # a line of text stays one
         said = (html.escape(line) for line in self.lines if line.strip())
         paragraphs = "".join(f"<p {style}>{line}</p>" for line in said)
-        return f"<div>{typed(paragraphs)}{self.more}</div>"
+        return f"<div>{with_notebook_commands(paragraphs)}{self.more}</div>"
 
 
-class Checked:
+class CheckResult:
     """The verdict of a check."""
 
     def __init__(
@@ -64,7 +64,7 @@ class Checked:
 
     def __repr__(self) -> str:
         """Return the report as `make check` prints it."""
-        return typed("\n".join([*self.told, as_text(self.report)]))
+        return with_notebook_commands("\n".join([*self.told, as_text(self.report)]))
 
     def _repr_html_(self) -> str:
         """Return a row per task: its state, and what is wrong with it."""
@@ -75,7 +75,9 @@ class Checked:
             rows += [_row(i.name, i.status, [i.message]) for i in report.items]
         table = f"<table>{''.join(rows)}</table>"
         last = f"{report.done} of {report.total} done. Next: {report.next_step()}"
-        return typed(Said(said)._repr_html_() + table + Said([last])._repr_html_())
+        return with_notebook_commands(
+            Message(said)._repr_html_() + table + Message([last])._repr_html_()
+        )
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
         """Return both forms."""

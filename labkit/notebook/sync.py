@@ -11,19 +11,19 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from labkit.base import store
+from labkit.lesson.backup import rewrite, with_ends_of
 from labkit.lesson.cells import (
     MOST,
     Cells,
-    apart,
     code_of,
     definitions,
     functions_of,
     is_gap,
+    split_script,
     text_of,
     with_functions,
 )
 from labkit.lesson.day import Day
-from labkit.lesson.kept import rewrite, with_ends_of
 from labkit.lesson.lab_module import read_script
 from labkit.lesson.starter import starter_of
 from robo47.errors import Robo47Error
@@ -34,13 +34,13 @@ KEPT = 200  # texts that are remembered, per function
 
 
 @dataclass
-class Brought:
-    """What became of a notebook's functions."""
+class SyncResult:
+    """The result of copying a notebook's functions."""
 
     written: list[str] = field(default_factory=list)  # taken from the notebook
     newer: list[str] = field(default_factory=list)  # the file's was edited: it counts
 
-    def told(self, day: Day) -> list[str]:
+    def sentences(self, day: Day) -> list[str]:
         """Return a sentence for each kind of change."""
         file, says = shown(day.work), []
         if self.written:
@@ -57,7 +57,7 @@ class Brought:
 
 def bring(
     day: Day, cells: Cells, keep: str = "", reverted: Collection[str] = ()
-) -> Brought:
+) -> SyncResult:
     """Put the functions of a notebook into the day's file, and say what happened.
 
     Args:
@@ -86,7 +86,7 @@ def bring(
     taken = [name for name in counts if counts[name] == "notebook"]
     newer = [name for name in counts if counts[name] == "file"]
     left = {n: text for n, text in cells.functions.items() if n not in newer}
-    _, own = apart(script)
+    _, own = split_script(script)
     labs = [name for name in taken if name not in own]
     after = with_functions(script, Cells(left, cells.others), labs)
     if after != script:
@@ -94,12 +94,12 @@ def bring(
     for name, cell, _ in pairs:
         seen[name] = [*seen.get(name, []), _mark(cell)][-KEPT:]
     store.write(MEMORY, {**memory, str(day.number): seen}, clone)
-    return Brought(taken, newer)
+    return SyncResult(taken, newer)
 
 
 def _pairs(day: Day, script: str, cells: Cells) -> Iterator[tuple[str, str, str]]:
     """Yield name, cell's text and file's text of what the student writes in both."""
-    _, own = apart(script)
+    _, own = split_script(script)
     for name in dict.fromkeys([*functions_of(day), *own]):
         cell = cells.functions.get(name, "")
         if cell and not is_gap(cell):
@@ -123,7 +123,7 @@ def _counts(cell: str, file: str, known: list[str], reverted: bool) -> str:
     return "both" if begun else "notebook"
 
 
-def bring_saved(day: Day) -> Brought:
+def bring_saved(day: Day) -> SyncResult:
     """Put the functions of the notebook in `work/` into the day's file, if it is newer.
 
     Raises:
@@ -133,12 +133,12 @@ def bring_saved(day: Day) -> Brought:
     try:
         status = path.stat()
         if day.work.is_file() and status.st_mtime_ns <= day.work.stat().st_mtime_ns:
-            return Brought()
+            return SyncResult()
         if status.st_size > MOST:
             raise ValueError(f"has more than {MOST // 1_000_000} MB: clear its outputs")
         cells = definitions(code_of(path.read_bytes()))
     except FileNotFoundError:
-        return Brought()
+        return SyncResult()
     except (OSError, ValueError) as error:
         raise Robo47Error(f"{shown(path)}: {error}") from None
     if not day.work.is_file():

@@ -7,13 +7,12 @@ numbered list, "question" and its number. The table of predictions has its own m
 import re
 from dataclasses import dataclass
 
-from labkit.lesson.predicted import rows_asked
+from labkit.lesson.predictions import rows_asked
 from robo47.errors import Robo47Error
 
 _OPEN = re.compile(r"^(?P<indent> *)\*\((?P<asks>your [^)]*)\)\*\s*$")
 _HEADING = re.compile(r"^#+ (.+)$")
 _QUESTION = re.compile(r"^(\d+)\. (.*)$")
-_ROW = re.compile(r"^\|\s*([^|]+?)\s*\|\s*(\*\([^|]*\)\*|[^|]*?)\s*\|")
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import numpy as np
 
 from labkit.base.text import visible
 from labkit.check.lab_run import FirstFailure, behind_wall
-from labkit.check.own_functions import Counted, counted
-from labkit.check.slow import Budget, EnoughAsked, RunsOn
+from labkit.check.own_functions import OwnCount, counted
+from labkit.check.slow import Budget, RunsOn, TimeUsedUp
 from labkit.lesson.lab_module import lab_of
 from labkit.report.week_facts import DayFacts
 from labkit.sandbox.sandbox import Sandbox
@@ -25,19 +25,19 @@ SECONDS = 240.0  # CPU seconds; the pick with all functions right makes 30,000 c
 
 
 class Attempt(NamedTuple):
-    """What came of it."""
+    """The result of an attempt at the capstone."""
 
     # the module of the attempt; None for a week without one
     capstone: ModuleType | None
     result: Any  # None where the arm stopped
     stopped: str  # why it did, in a line
     theirs: frozenset[str]  # its functions that are the student's, since they pass
-    # Of those, what the kit's own did here: what asks them cannot travel.
+    # The kit's own functions ran in place of these, whose arguments cannot travel.
     stayed: frozenset[str] = frozenset()
 
     @property
-    def counted(self) -> Counted:
-        """How many of its functions are the student's, as `make capstone` counts."""
+    def counted(self) -> OwnCount:
+        """The number of functions that are the student's, as for `make capstone`."""
         uses = self.capstone.USES if self.capstone else {}
         own = {day: self.theirs.intersection(names) for day, names in uses.items()}
         return counted(uses, own)
@@ -86,7 +86,7 @@ def _tried(capstone: ModuleType, fns: Any, budget: Budget) -> tuple[Any, str]:
         if np.isfinite(capstone.film(result).qpos).all():
             return result, ""
         return None, "the arm flew off"
-    except (EnoughAsked, RunsOn):
+    except (TimeUsedUp, RunsOn):
         return None, "it took too long"
     # a strange answer may stop the simulation
     except (FirstFailure, Exception) as error:

@@ -54,7 +54,7 @@ def draw(facts: Mapping[str, Any], tried: Attempt) -> Image.Image:
         sheet.paste(picture, (SIZE[0] - ARM[0], 0), seen)
     pen = ImageDraw.Draw(sheet)
     _write(pen, 34, f"robo47, run on {datetime.date.today()}", LEAST, FAINT, 1)
-    name = _known(facts["name"])
+    name = _printable(facts["name"])
     _write(pen, 78, name or facts["heading"], 58, INK, 1)
     _write(pen, 148, facts["heading"] if name else "", 36, FAINT, 1)
     for i, (number, words, good) in enumerate(rows):
@@ -83,7 +83,7 @@ def _whole(counted: str) -> bool:
     return some == all_
 
 
-def _known(name: str) -> str:
+def _printable(name: str) -> str:
     """Return a name in letters that the font has; "" if it lacks one of them."""
     font = fonts.font(20)
     missing = bytes(font.getmask("\uffff"))

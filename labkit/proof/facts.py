@@ -6,8 +6,8 @@ from pathlib import Path
 
 from labkit.base.git import read_history
 from labkit.base.text import visible
-from labkit.check.lab_run import Rehearsed, rehearse
-from labkit.check.memory import in_words
+from labkit.check.lab_run import LabRun, rehearse
+from labkit.check.memory import state_of
 from labkit.check.tasks import check_tasks, required_pass
 from labkit.grade.package import collect, unpack
 from labkit.grade.roster import Student
@@ -23,13 +23,13 @@ from robo47.errors import Robo47Error
 
 @dataclass(frozen=True)
 class RunDay(DayFacts):
-    """How a day of somebody's stands, as it ran here."""
+    """The state of a student's day after its run here."""
 
     # The numbers that the lab gave with theirs as far as it came, by check and metric.
     again: Mapping[tuple[str, str], float] = field(default_factory=dict)
     fault: str = ""  # the first step of the lab that failed here, "" where none did
     unfinished: str = ""  # why the lab did not run to its end; "" if it did
-    # What the commit lacks of what is in the folder; "" where it has all.
+    # The files of the folder that the commit lacks; "" if it has all.
     left: str = ""
     commit: str = ""  # the commit that ran; "" if none is known
     worksheet: str = ""  # its text, with the predictions
@@ -71,12 +71,12 @@ def facts_of(
         begun = {task.id: "not begun" for task in day.tasks}
         return RunDay(day, begun, numbers, commit=package.commit, worksheet=sheet)
     states = {task.id: "the kit's own file" for task in day.tasks}
-    ran = Rehearsed("", {})
+    ran = LabRun("", {})
     if writers.kits.isdisjoint(marks_of(script)):
         whole = deadline_of(day)
         asked = (day, folder / day.script, sandbox)
         results = check_tasks(*asked, deadline=whole)
-        states = {result.task.id: in_words(result.verdict) for result in results}
+        states = {result.task.id: state_of(result.verdict) for result in results}
         if required_pass(results):
             ran = rehearse(*asked, whole)
     if own:

@@ -14,15 +14,15 @@ import robo47
 from labkit.base import html
 from labkit.base.text import count, number_of
 from labkit.check.lab_run import TRIALS
-from labkit.check.own_functions import Counted, counted
+from labkit.check.own_functions import OwnCount, counted
 from labkit.proof import sharing
 from labkit.proof.capstone import Attempt, recorded
 from labkit.proof.facts import RunDay
-from labkit.report import prediction_plot
+from labkit.report import overview, prediction_plot
 from labkit.report.series import Series, cell_of, limit_of, with_unit
 from robo47.attempt import Summary
 
-# What viser's player needs of the page's policy. Its workers compile what they run.
+# Viser's player needs this in the page's policy: its workers compile their code.
 ALLOWED = (
     "; script-src 'nonce-{nonce}' 'unsafe-eval'; worker-src blob:; font-src data:"
     "; img-src data: blob:; connect-src data: blob:"
@@ -61,8 +61,8 @@ class Proof:
     commit: str  # the hash of the last one, or of those that ran; "" without one
     days: Sequence[RunDay]  # the days of the week, in order
     attempt: Attempt  # the attempt at the capstone
-    # What `make fresh` found last: commit, date, how many numbers are wrong and how
-    # many things missing; {} where nobody asked.
+    # The last result of `make fresh`: commit, date, the number of wrong numbers and of
+    # missing things; {} if there is none.
     fresh: dict[str, Any] = field(default_factory=dict)
 
 
@@ -94,7 +94,7 @@ def render(proof: Proof, card_name: str = "") -> str:
         _functions(proof.days),
         _commit(proof),
         html.section("What this does not prove", f"<ul>{not_proved}</ul>"),
-        style=STYLE,
+        style=STYLE + overview.MARGINS,
         policy=ALLOWED.format(nonce=nonce),
         meta=sharing.meta(card_name, in_short(proof)) if card_name else "",
     )
@@ -138,7 +138,7 @@ def _tiles(proof: Proof) -> str:
     ])  # fmt: skip
 
 
-def _counted(proof: Proof) -> Counted:
+def _counted(proof: Proof) -> OwnCount:
     """Return how many of the week's functions are theirs."""
     tasks = {one.day.number: one.day.tasks for one in proof.days}
     asked = {day: [f for t in some for f in t.functions] for day, some in tasks.items()}
@@ -247,7 +247,23 @@ def _stayed(attempt: Attempt) -> str:
     )
 
 
+def _begun(days: Sequence[RunDay]) -> list[RunDay]:
+    return [one for one in days if set(one.states.values()) != {"not begun"}]
+
+
+def _margins(days: Sequence[RunDay]) -> str:
+    """Return how far each number that was run again is inside its limit."""
+    bars = []
+    for one in days:
+        for number in one.numbers:
+            wanted = number.wanted
+            value = one.again.get((wanted.check, wanted.metric))
+            bars.append(overview.Bar(number, value, _again(one, number)[0]))
+    return overview.margins(bars)
+
+
 def _numbers(days: Sequence[RunDay]) -> str:
+    days = _begun(days)
     rows = [_number(one, number) for one in days for number in one.numbers]
     faults = "".join(
         f"<p class=fail>Day {one.day.number}, the lab here: {escape(one.fault)}</p>"
@@ -265,7 +281,8 @@ def _numbers(days: Sequence[RunDay]) -> str:
         f" {TRIALS} random inputs a step. Small: what their own run logged, by which"
         " file.</p>"
     )
-    return html.section("The numbers", about, faults, html.table(head, rows))
+    table = html.table(head, rows) if rows else "<p>No day was begun.</p>"
+    return html.section("The numbers", about, faults, _margins(days), table)
 
 
 def _number(one: RunDay, number: Series) -> str:
@@ -298,7 +315,7 @@ def _predictions(days: Sequence[RunDay]) -> str:
 
 def _functions(days: Sequence[RunDay]) -> str:
     rows = []
-    for one in days:
+    for one in _begun(days):
         others: dict[str, list[str]] = {}
         for task in one.day.tasks:
             if (state := one.states[task.id]) != "passed":
@@ -323,10 +340,15 @@ def _commit(proof: Proof) -> str:
         return html.section("The commit", "<p>Nothing is committed.</p>")
     which = "The last commit" if proof.own else "What ran is of commit"
     words = [f"<p>{which}: <code>{escape(proof.commit)}</code>.</p>"]
-    left = [one for one in proof.days if one.left]
-    words += [f"<p>Day {one.day.number}: {escape(one.left)}</p>" for one in left] or [
-        "<p>It holds all files of the days that were begun, as they ran here.</p>"
+    left = [
+        f"Day {one.day.number}: {one.left}" for one in _begun(proof.days) if one.left
     ]
+    if left:
+        words.append(f"<p>It lacks: {escape('; '.join(left))}</p>")
+    else:
+        words.append(
+            "<p>It holds all files of the days that were begun, as they ran here.</p>"
+        )
     found, mood = _fresh(proof)
     if mood == "none":
         words.append("<p>No fresh clone of it was run: <code>make fresh</code>.</p>")

@@ -1,4 +1,4 @@
-"""What the head of a page says of its card, for whoever shows a link as one."""
+"""Tags in the head of a page about its card, for sites that show a link as a card."""
 
 from collections.abc import Mapping
 from html import escape

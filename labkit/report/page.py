@@ -1,16 +1,18 @@
 """The report as one HTML file that needs nothing else: no script, no font, no net."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 from itertools import groupby
 
 from labkit.base import html
 from labkit.base.text import count
+from labkit.check.memory import Entry
 from labkit.hunt.tally import tally
 from labkit.log.rows import Row
 from labkit.log.scan import Line
-from labkit.report import plot, prediction_plot
+from labkit.report import overview, plot, prediction_plot
 from labkit.report.series import Report, Series, failures_of, value_of
+from labkit.report.week_facts import OwnDay
 
 RECENT = 20  # runs listed under a plot
 LISTED = 200  # lines listed that need a look
@@ -44,6 +46,8 @@ def render(
     weeks: Sequence[int] = (),
     checked: Mapping[int, str] | None = None,
     sheets: Mapping[int, str] | None = None,
+    own_days: Sequence[OwnDay] = (),
+    journal: Sequence[Entry] = (),
 ) -> str:
     """Return the whole page.
 
@@ -53,23 +57,54 @@ def render(
         weeks: those whose own pages stand beside this one.
         checked: what the last check found, a line of plain text by day.
         sheets: the worksheets' text by day, for the predictions.
+        own_days: how the student's own days stand; none of another log.
+        journal: the changes of their tasks' verdicts, oldest first.
     """
     beside = links(weeks)
     checked, sheets = checked or {}, sheets or {}
-    days = groupby(report.series, key=lambda series: series.day)
     return html.page(
         "robo47 metrics",
         escape(heading) + beside,
         _tiles(report),
         *([] if report.rows else [NOTHING]),
+        overview.days_table(own_days, journal),
+        _margins(report.series),
+        overview.mistakes(own_days) if any(one.met for one in own_days) else "",
         _jumps(report),
-        *(
-            _day(day, series, checked.get(day or 0, ""), sheets.get(day or 0, ""))
-            for day, series in days
-        ),
+        *_days(report, checked, sheets),
         _hunts(report.hunts),
         _look(report.look),
+        style=overview.STYLE,
     )
+
+
+def _days(
+    report: Report, checked: Mapping[int, str], sheets: Mapping[int, str]
+) -> Iterator[str]:
+    """Yield a section for each day, those without a number in one that is folded."""
+    later = []
+    for day, some in groupby(report.series, key=lambda series: series.day):
+        numbers = list(some)
+        said = checked.get(day or 0, "")
+        section = _day(day, numbers, said, sheets.get(day or 0, ""))
+        if said.startswith("The last") or any(n.rows or n.kits for n in numbers):
+            yield section
+        else:
+            later.append(section)
+    if later:
+        title = f"{count(len(later), 'day')} without a number yet"
+        yield html.folded(title, *later, opened=not report.rows)
+
+
+def _margins(series: Sequence[Series]) -> str:
+    drawn = overview.margins(
+        overview.Bar(one, one.latest, one.status) for one in series
+    )
+    about = (
+        '<p class="muted">Each bar is a number. It begins at the limit and goes to the'
+        " right by the factor by which your last run is inside it.</p>"
+    )
+    return drawn and html.section("Margins", about, drawn)
 
 
 def _tiles(report: Report) -> str:
@@ -105,12 +140,17 @@ def _jumps(report: Report) -> str:
 
 def _day(day: int | None, series: Iterable[Series], checked: str, sheet: str) -> str:
     foreseen = prediction_plot.draw(sheet)
-    cards = foreseen and html.card("Predicted and measured", foreseen)
-    cards += "".join(map(_card, series))
+    foreseen = foreseen and html.card("Predicted and measured", foreseen)
+    numbers = list(series)
     about = checked and f'<p class="muted">{escape(checked)}</p>'
-    return (
-        f'<section id="{day}"><h2>{_title(day)}</h2>{about}'
-        f'<div class="cards">{cards}</div></section>'
+    title = f"Every run of {count(len(numbers), 'number')}"
+    plots = f'<div class="cards">{"".join(map(_card, numbers))}</div>'
+    return html.section(
+        _title(day),
+        about,
+        foreseen and f'<div class="cards">{foreseen}</div>',
+        html.folded(title, plots, opened=any(n.status == "fail" for n in numbers)),
+        id=str(day),
     )
 
 

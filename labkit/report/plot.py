@@ -16,7 +16,7 @@ RIGHT = 348
 TOP = 14
 BOTTOM = 126
 MOST = 240  # points: more cannot be told apart, and would only make the page heavy
-LABEL_GAP = 58  # between two commits under the axis
+LABEL_GAP = 58  # the distance of two commits under the axis
 HALF_LABEL = 26  # half the width of a label, a commit's seven figures
 
 

@@ -10,13 +10,13 @@ import textwrap
 from html import escape
 
 from labkit.base.text import visible
-from labkit.report.foreseen import Prediction, compared, value_of
+from labkit.report.prediction_values import Prediction, compared, value_of
 
 WIDTH, LEFT, RIGHT = 360, 10, 350
 LINE = 15  # pixels, of a line of text
 TICK = 16  # pixels, from an axis to the foot of its labels
 BELOW = 26  # pixels, from the last line of a prediction to the first of the next
-LETTERS = 56  # in a line of text
+LETTERS = 56  # the most letters in a line of text
 MOST = 12  # predictions of a day that are drawn
 CLIP = 40  # letters that are shown of a cell
 DECADES = 20.0  # the ratio of two numbers from which on their scale is logarithmic

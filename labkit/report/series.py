@@ -22,7 +22,7 @@ class Series:
     """The runs of one number, oldest first, and what they must reach."""
 
     day: int | None
-    wanted: Metric  # without a limit where nobody asks for the number
+    wanted: Metric  # the metric; it has no limit if no manifest lists the number
     writers: Writers = SOMEBODY
     rows: list[Row] = field(default_factory=list)  # all but
     kits: list[Row] = field(default_factory=list)  # the kit's own
@@ -58,7 +58,7 @@ class Series:
 
     @property
     def status(self) -> str:
-        """What the latest run is worth now, as `Writers.judge` has it.
+        """The status of the latest run by `Writers.judge`.
 
         "kit" where nobody but the kit ran it, "open" where nothing is asked of it.
         """
@@ -99,7 +99,7 @@ class Series:
 
     @property
     def is_log(self) -> bool:
-        """Whether the axis is logarithmic: errors, and whatever spans decades."""
+        """The axis is logarithmic: errors, and numbers that span decades."""
         values = self.values
         positive = [value for value in values if value > 0]
         if not positive or min(values) < 0:

@@ -12,7 +12,7 @@ from pathlib import Path
 from labkit.base import store
 from labkit.base.git import GitError, run
 from labkit.check import memory
-from labkit.check.memory import Met
+from labkit.check.memory import MetMistake
 from labkit.lesson.day import Day
 from labkit.lesson.writers import writers_of
 from labkit.report.series import Series
@@ -23,13 +23,13 @@ GIT_SECONDS = 10.0
 
 @dataclass(frozen=True)
 class DayFacts:
-    """How a day stands."""
+    """The state of a day."""
 
     day: Day
     # How each task stands, "passed", "wrong" and so on; none that nobody checked as
     # the file is now.
     states: Mapping[str, str]
-    numbers: Sequence[Series]  # in the manifest's order
+    numbers: Sequence[Series]  # the order is the manifest's
 
     @property
     def own(self) -> list[str]:
@@ -38,28 +38,28 @@ class DayFacts:
 
     @property
     def functions(self) -> int:
-        """How many functions the day asks for."""
+        """The number of functions that the day asks for."""
         return sum(len(task.functions) for task in self.day.tasks)
 
 
 @dataclass(frozen=True)
 class OwnDay(DayFacts):
-    """How a day of one's own went."""
+    """The history of a student's day."""
 
     # minutes from the first to the last commit, as git knows
     minutes: int | None = None
-    hints: int = 0  # how many were asked for
-    met: Sequence[Met] = ()  # the named mistakes, in the order they were met
+    hints: int = 0  # the number of hints that were asked for
+    met: Sequence[MetMistake] = ()  # the named mistakes, in the order they were met
     borrowed: Sequence[str] = ()  # tasks whose functions are borrowed from the kit
 
     @property
     def checked(self) -> bool:
-        """Whether `make check` has seen all tasks in the file as it is."""
+        """`make check` has seen all tasks in the present file."""
         return len(self.states) == len(self.day.tasks)
 
     @property
     def graded(self) -> list[bool]:
-        """Whether each task passes; side quests are not counted."""
+        """For each task whether it passes, without side quests."""
         tasks = [task for task in self.day.tasks if not task.optional]
         return [self.states.get(task.id) == "passed" for task in tasks]
 
@@ -71,7 +71,7 @@ def facts_of(day: Day, series: Sequence[Series]) -> OwnDay:
         day: from its manifest.
         series: the log's rows of all that the day asks for.
     """
-    known = memory.known(day)
+    known = memory.task_states(day)
     ids = {task.id for task in day.tasks}
     by = {one.wanted: one for one in series if one.day == day.number}
     return OwnDay(

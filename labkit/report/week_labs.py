@@ -16,8 +16,8 @@ from labkit.report.series import Series, series_of
 
 
 @dataclass(frozen=True)
-class Ran:
-    """What became of a day's lab."""
+class LabResult:
+    """The result of a day's lab."""
 
     day: Day
     mine: bool  # the student's file ran, and not the kit's
@@ -26,7 +26,7 @@ class Ran:
 
     @property
     def passed(self) -> bool:
-        """Whether the lab and every number that the manifest asks for are right."""
+        """The lab and every number that the manifest asks for are right."""
         return not self.why and all(one.status == "pass" for one in self.numbers)
 
 
@@ -36,7 +36,7 @@ def run_labs(
     environment: Mapping[str, str] | None = None,
     *,
     kits: bool = False,
-) -> Iterator[Ran]:
+) -> Iterator[LabResult]:
     """Run labs side by side, the student's own where they are begun.
 
     Args:
@@ -50,7 +50,7 @@ def run_labs(
     """
     given = os.environ if environment is None else environment
 
-    def run(day: Day) -> Ran:
+    def run(day: Day) -> LabResult:
         mine = day.work.is_file() and not kits
         command = [str(python), str(day.work if mine else day.source)]
         with tempfile.TemporaryDirectory(prefix="robo47-week-") as folder:
@@ -58,7 +58,7 @@ def run_labs(
             variables = {**given, "ROBO47_METRICS": str(log), "COLUMNS": "80"}
             done = processes.run(command, env=variables)
             rows = read_rows(log) if log.exists() else []
-        return Ran(day, mine, series_of(day, rows), _why(done))
+        return LabResult(day, mine, series_of(day, rows), _why(done))
 
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         yield from pool.map(run, days)
@@ -72,6 +72,7 @@ def _why(done: subprocess.CompletedProcess[str]) -> str:
     if mark:
         return " ".join(failed.partition("FAILED: ")[0].split())
     lines = done.stderr.strip().splitlines()
-    if lines[1:] and lines[-1].startswith("Which function"):  # after a bug's own words
+    # A bug of the kit prints its own words first.
+    if lines[1:] and lines[-1].startswith("Which function"):
         del lines[-1]
     return lines[-1].strip() if lines else f"it ended with code {done.returncode}"

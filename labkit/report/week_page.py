@@ -5,11 +5,9 @@ from html import escape
 
 from labkit.base import html
 from labkit.base.text import number_of
-from labkit.check.memory import Met
-from labkit.lesson.day import Day
+from labkit.report import overview
 from labkit.report.page import STATUS, links
 from labkit.report.series import Series, cell_of, limit_of, with_unit
-from labkit.report.unnamed import in_words
 from labkit.report.week_facts import OwnDay
 
 STYLE = """
@@ -31,8 +29,6 @@ th:last-child, td:last-child { padding-right: 0; } td.wide { white-space: normal
 
 _MARKS = {status: f"{mark} {words}" for status, (mark, words) in STATUS.items()}
 _MARKS |= {"none": "○ no row yet", "kit": "○ the kit's file ran"}
-# Names of what no known mistake explains.
-_MOODS = {"left behind": ("pass", "✓"), "still there": ("fail", "✗")}
 
 
 def render(
@@ -57,7 +53,7 @@ def render(
         _tiles(facts),
         _numbers(facts),
         _days(facts),
-        _mistakes(facts),
+        overview.mistakes(facts),
         f'<p class="muted last">Every run as a plot: {plots}. '
         "Hints and mistakes are on your machine alone.</p>",
         style=STYLE,
@@ -101,7 +97,7 @@ def _numbers(facts: Sequence[OwnDay]) -> str:
         for one in facts
         for i, number in enumerate(one.numbers)
     ]
-    # What counts stands left: a phone shows the first four columns.
+    # A phone shows the first four columns, so the important ones come first.
     head = (
         "<th>day</th><th>number</th><th class=n>yours</th><th></th><th>limit</th>"
         "<th class=n>your worst on the way</th>"
@@ -140,27 +136,6 @@ def _days(facts: Sequence[OwnDay]) -> str:
         "<th>first to last commit, of the time planned</th><th>hints</th>"
     )
     return html.section("The days", html.table(head, rows))
-
-
-def _mistakes(facts: Sequence[OwnDay]) -> str:
-    rows = [_mistake(one.day, met) for one in facts for met in one.met]
-    nothing = '<p class="muted">None so far: <code>make check</code> names them.</p>'
-    head = "<th>task</th><th>what was wrong</th><th>now</th>"
-    return html.section(
-        "The mistakes you met", html.table(head, rows) if rows else nothing
-    )
-
-
-def _mistake(day: Day, met: Met) -> str:
-    role, mark = _MOODS.get(met.now, ("none", "•"))
-    name = escape(in_words(met.mistake))
-    says = met.says and f"<br><span class=muted>{escape(met.says)}</span>"
-    names = ", ".join(f for t in day.tasks if t.id == met.task for f in t.functions)
-    return (
-        f"<tr><td class=day>{escape(met.task)}</td>"
-        f"<td class=wide>{escape(names)}: {name}{says}</td>"
-        f"<td class={role}>{mark} {met.now}</td></tr>"
-    )
 
 
 def _counts(one: OwnDay) -> str:

@@ -9,12 +9,12 @@ from pathlib import Path
 
 from labkit.base import store
 from labkit.base.text import blocks, number_of, refill
-from labkit.lesson.students_own import retrospectives
+from labkit.lesson.student_files import retrospectives
 from labkit.report.week_facts import OwnDay
 from robo47.errors import Robo47Error
 from robo47.paths import shown
 
-_MARKS = {  # after a number, what it is worth
+_MARKS = {  # a note that follows a number
     "pass": "",
     "none": "",
     "kit": "",

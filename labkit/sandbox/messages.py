@@ -21,9 +21,9 @@ from labkit.judge.ask import Robot
 from labkit.judge.worlds import is_world
 from labkit.lesson import day_mujoco
 from labkit.lesson.day import NUMBERS, Day, Limits, days_before
-from labkit.lesson.own_files import SCRIPT
 from labkit.lesson.slips import other_packages
 from labkit.lesson.starter import function_lines
+from labkit.lesson.untrusted_files import SCRIPT
 from labkit.sandbox.inside import wire
 from labkit.sandbox.inside.fake_model import KINDS
 from robo47 import panda
@@ -328,10 +328,10 @@ def _largest(value: Any) -> float:
     if value is None or isinstance(value, str):
         return 0.0
     try:
-        array = np.asarray(value, dtype=np.float64)
+        array = np.abs(np.asarray(value)).astype(np.float64)
     except (TypeError, ValueError):  # the items are of different types
         return max(map(_largest, value), default=0.0)
-    return float(np.abs(array[np.isfinite(array)]).max(initial=0))
+    return float(array[np.isfinite(array)].max(initial=0))
 
 
 def _texts(told: Any) -> tuple[str, ...]:

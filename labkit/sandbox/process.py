@@ -41,7 +41,7 @@ from robo47.paths import shown
 
 START_SECONDS, LOAD_SECONDS = 60.0, 10.0
 GB = 1024**3
-MODEST = 0.5  # who holds more of its share is why the machine's memory ran out
+MODEST = 0.5  # a process that holds more of its share is why the memory ran out
 LONGEST_LINE, MOST_WAITING = 2_000_000, 16  # bytes of a reply, replies unread
 MOST_PARTS = 20_000  # commas and brackets of a reply: all its texts may be of them
 PER_NUMBER = 11  # bytes: eight, as text
@@ -51,7 +51,7 @@ ENDLESS = "it does not end, as in an endless loop"
 INSIDE = Path(__file__).parent / "inside"
 FLAGS = ["-I", "-S", "-B", "-X", "utf8"]
 PROBE_SECONDS = 20.0
-# What bubblewrap shows: the interpreter, its standard library, the system's libraries,
+# Bubblewrap shows the interpreter, its standard library, the system's libraries,
 # NumPy and `inside/`, all read-only; one process, no network, no folder to write to.
 NAMESPACES = "--unshare-all --die-with-parent --new-session --as-pid-1 --cap-drop ALL"
 DEVICES = ("/dev/null", "/dev/zero", "/dev/urandom")
@@ -297,7 +297,7 @@ def _start(command: list[str]) -> subprocess.Popen[bytes]:
 
 @dataclass(frozen=True)
 class Wall:
-    """What student code is kept behind."""
+    """The wall around student code."""
 
     name: str  # "bubblewrap", "landlock" or "none"
     says: str  # a sentence for people, without a full stop

@@ -42,10 +42,11 @@ from robo47.errors import FaultError
 
 # limits for one call and for all calls of a task
 CALL_SECONDS, TASK_SECONDS = 3.0, 10.0
-RUN_SECONDS = 100.0  # for a submission, however often it is begun anew; and its lab's
+RUN_SECONDS = 100.0  # the limit of a submission with all its restarts and its lab
 TOO_LONG = "all of its calls together take far too long"
 CPU, SESSION_CPU = 120, 7200  # seconds of a processor
-_SAME = ("file", "code", "beside", "library", "memory", "numbers")  # of a request
+# Fields of a request.
+_SAME = ("file", "code", "beside", "library", "memory", "numbers")
 
 
 def deadline_of(day: Day) -> Deadline:
@@ -242,7 +243,7 @@ class Session:
 
     @property
     def alive(self) -> bool:
-        """Whether it still answers; where not, open another session."""
+        """The session still answers; if not, open another one."""
         return self._ended is None
 
     def ask(

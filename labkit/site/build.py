@@ -55,14 +55,14 @@ SETTINGS: dict[str, Any] = {
         "myst_parser",  # the documents are Markdown
         "sphinx.ext.autodoc",  # the library's pages, from its docstrings
         "sphinx.ext.napoleon",  # reads Args and Returns
-        __name__,  # what is told to Sphinx below
+        __name__,  # `setup` below is called by Sphinx
     ],
     "myst_enable_extensions": ["dollarmath", "tasklist"],
     "myst_heading_anchors": 4,
     "autodoc_typehints": "none",  # the docstrings tell shapes and units
     "autodoc_member_order": "bysource",
     "napoleon_use_ivar": True,  # a class's attributes are listed once
-    "napoleon_attr_annotations": False,  # without types here, as elsewhere
+    "napoleon_attr_annotations": False,  # types are left out, as elsewhere on the site
     "default_role": "code",  # `q` in a docstring
 }
 LONG = 55  # letters of LaTeX: a formula that a phone scrolls, since none is broken

@@ -35,10 +35,10 @@ def arm() -> list[Shape]:
         T = se3.make_T(se3.quat_to_R(model.body(name).quat), model.body(name).pos)
         opened = se3.make_T(np.eye(3), OPEN * model.joint(joint).axis)
         moves[name] = T_EE_HAND @ T @ opened
-    return [_moved(_whole(one), moves.get(one.body)) for one in shapes(model)]
+    return [_transformed(_whole(one), moves.get(one.body)) for one in shapes(model)]
 
 
-def _moved(shape: Shape, T: Array | None) -> Shape:
+def _transformed(shape: Shape, T: Array | None) -> Shape:
     if T is None:
         return shape
     vertices = shape.vertices @ T[:3, :3].T + T[:3, 3]

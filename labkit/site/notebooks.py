@@ -105,11 +105,11 @@ def page(ran: Any, path: Path, day: int) -> str:
             parts.append(cell.source)
             continue
         parts.append(f"{FENCE}python\n{cell.source}\n{FENCE}")
-        parts += _shown(cell.outputs, path.with_name(f"{path.stem}-{n}.png"), day)
+        parts += _outputs(cell.outputs, path.with_name(f"{path.stem}-{n}.png"), day)
     return HEAD + "\n\n".join(parts) + "\n"
 
 
-def _shown(outputs: Sequence[Any], picture: Path, day: int) -> Iterator[str]:
+def _outputs(outputs: Sequence[Any], picture: Path, day: int) -> Iterator[str]:
     """Yield what a cell gave; progress, which goes to stderr, is left out."""
     printed = "".join(it.text for it in outputs if it.get("name") == "stdout")
     if printed.strip():

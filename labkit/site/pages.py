@@ -36,11 +36,11 @@ LIVE = re.compile(
 )  # a figure of site/figures.js
 FIGURE = '```{raw} html\n<figure class="live" data-figure="\\1"></figure>\n```'
 COLAB = "https://colab.research.google.com/github"
-BRANCH = "notebooks"  # of the repository: nothing but the days' notebooks
+BRANCH = "notebooks"  # a branch of the repository with nothing but the days' notebooks
 FILMS = "films"  # their folder among the site's static files
 VERB = re.compile(
     r"^([a-z-]+)%?:.*?##(\d?) (.+)$", re.MULTILINE
-)  # in the form that `make help` reads
+)  # a line of `make help`
 TYPED = re.compile(r"\b[A-Z]+=[^\s,;]*[^\s,;:]|\B--[\w-]+|\b\w+/[\w.-]*\w")
 COMMANDS = """\
 # What to type: the commands
@@ -161,7 +161,7 @@ def linked(text: str, page: Path, pages: set[Path], folder: Path) -> str:
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(target, copy)
             return found[1]
-        _write(copy.with_name(copy.name + ".md"), _shown(target, name))
+        _write(copy.with_name(copy.name + ".md"), _file_page(target, name))
         return found[1] + ".md"
 
     return LINK.sub(lead, text)
@@ -212,7 +212,7 @@ def notebook_of(day: Day) -> Path:
     return Path("notebooks", Path(day.script).stem + ".md")
 
 
-def _shown(file: Path, name: Path) -> str:
+def _file_page(file: Path, name: Path) -> str:
     """Return a page that shows a file of the repository."""
     fence = "`" * 8
     language = LANGUAGE.get(file.suffix, "text")

@@ -1,4 +1,4 @@
-"""What the site's pages know of the Panda: numbers from MuJoCo's model, no formula."""
+"""The Panda's numbers on the site's pages, from MuJoCo's model."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Where a student's files came from: the kit's commit that a merge starts at.
+"""The origin of a student's files: the kit's commit at which a merge starts.
 
 Git knows it for a clone. A copy of a template has the kit's files and none of its
 commits, and a kit whose history was rewritten has other commits with the same files:

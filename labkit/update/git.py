@@ -1,4 +1,4 @@
-"""What an update asks of git, and the worktree beside the clone that it works in."""
+"""Git queries of an update, and the worktree beside the clone in which it works."""
 
 import contextlib
 import os
@@ -95,7 +95,7 @@ def look_again(index: Path) -> None:
 
 
 @contextlib.contextmanager
-def beside(head: str) -> Iterator[Path]:
+def worktree_at(head: str) -> Iterator[Path]:
     """Yield a worktree at a commit; it goes with the block."""
     with _folder() as place:
         try:

@@ -59,15 +59,17 @@ def versions(day: Day, *commits: str) -> list[str]:
     folder = day.source.parent.relative_to(ROOT).as_posix()
     names = [f"{folder}/{name}" for name in (day.script, *day.was)]
     log = ("log", "--format=%H", f"-{MOST}", *commits, "--", *names)
-    found = said(*log).split()
-    texts = [said("show", f"{commit}:{name}") for commit in found for name in names]
+    found = git_output(*log).split()
+    texts = [
+        git_output("show", f"{commit}:{name}") for commit in found for name in names
+    ]
     return [opened(text + "\n") for text in texts if text]
 
 
 def changes(before: str) -> list[str]:
     """Return what the changelog has that it had not."""
     path = ROOT / "CHANGELOG.md"
-    old = set(said("show", f"{before}:CHANGELOG.md").splitlines())
+    old = set(git_output("show", f"{before}:CHANGELOG.md").splitlines())
     lines = path.read_text("utf-8").splitlines() if path.is_file() else []
     return [line for line in lines if line.strip() and line not in old]
 
@@ -75,7 +77,7 @@ def changes(before: str) -> list[str]:
 def news(day: Day, before: str) -> list[str]:
     """Return what is new in a day since a commit, a line each."""
     own = day.own.relative_to(ROOT).as_posix()
-    text = said("show", f"{before}:{own}/day.toml")
+    text = git_output("show", f"{before}:{own}/day.toml")
     if not text:
         return [f"Day {day.number} is new: {day.title}"]
     try:
@@ -87,7 +89,7 @@ def news(day: Day, before: str) -> list[str]:
     return [*lab, *_tasks(day, old), *_rows(day, old), *_sheet(day, before)]
 
 
-def said(*arguments: str) -> str:
+def git_output(*arguments: str) -> str:
     """Return what git says of the clone, "" where it fails."""
     return ask(*arguments, may_fail=True)
 
@@ -116,7 +118,7 @@ def _rows(day: Day, old: dict[str, Any]) -> list[str]:
 
 def _sheet(day: Day, before: str) -> list[str]:
     name = day.files.get("worksheet", "")
-    old = said("show", f"{before}:{name}").splitlines() if name else []
+    old = git_output("show", f"{before}:{name}").splitlines() if name else []
     now = (ROOT / name).read_text("utf-8", "replace").splitlines() if old else []
     new = [line for line in now if line.startswith("#") and line not in old]
     return [f"the worksheet has a heading {line.strip('# ')!r}" for line in new]

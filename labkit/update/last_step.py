@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath
 
 from labkit.base import store
 from labkit.lesson.week import WORK
-from labkit.update.git import ask, beside, own_index
+from labkit.update.git import ask, own_index, worktree_at
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
 
@@ -42,8 +42,8 @@ def take(worktree: Path, own: str) -> None:
     now = ask("rev-parse", "HEAD")
     to = ask("rev-parse", "HEAD", at=worktree)
     names = _changed(own, to)
-    # what is neither as in one commit nor as in the other
-    if blocked := sorted(_unlike(to, names) & _unlike(own, names)):
+    # A blocked path differs from both commits.
+    if blocked := sorted(_differing(to, names) & _differing(own, names)):
         shown = ", ".join(blocked[:SHOWN]) + (", ..." if blocked[SHOWN:] else "")
         if ask("ls-tree", "--name-only", own, "--", *blocked[:SHOWN]):
             raise Robo47Error(f"changed meanwhile: {shown}. Once more: make update")
@@ -92,12 +92,13 @@ def heal() -> None:
         head = ask("rev-parse", "HEAD")
         if head == now != to and whole:
             names = _changed(own, to)
-            with beside(own) as worktree:
-                _move(worktree, set(names) - _unlike(to, names))
+            with worktree_at(own) as worktree:
+                _move(worktree, set(names) - _differing(to, names))
         if head in (now, to):
             ask("reset", "-q")
     with contextlib.suppress(FileNotFoundError, NotADirectoryError):
-        store.path_of(NOTE).unlink()  # else the student went on from there
+        # The note goes, since the student went on from there.
+        store.path_of(NOTE).unlink()
 
 
 def _changed(own: str, to: str) -> list[str]:
@@ -106,7 +107,7 @@ def _changed(own: str, to: str) -> list[str]:
     return [name for name in listed.split("\0") if name]
 
 
-def _unlike(commit: str, names: list[str]) -> set[str]:
+def _differing(commit: str, names: list[str]) -> set[str]:
     """Return which files the clone does not have as a commit has them."""
     with own_index() as index:
         ask("read-tree", commit, index=index)

@@ -6,7 +6,7 @@ from pathlib import Path
 from labkit.base import git
 from labkit.lesson.day import LOG
 from labkit.lesson.merge import keep_both, merged
-from labkit.lesson.students_own import deliverables, is_students, work_links
+from labkit.lesson.student_files import deliverables, is_students, work_links
 from labkit.update.git import (
     NOBODY,
     SECONDS,

@@ -33,10 +33,9 @@ from robo47 import (
     task_space,
     trajectory,
 )  # fmt: skip
-from robo47.attempt import Film
-from robo47.capstone.phases import PHASES, Result, Task
+from robo47.capstone.phases import CUBE_XY, GOAL_XY, PHASES, YAW, Result, Task
 from robo47.capstone.summary import HEAD as HEAD
-from robo47.capstone.summary import film_of
+from robo47.capstone.summary import film as film
 from robo47.capstone.summary import row as row
 from robo47.capstone.summary import summary as summary
 from robo47.checks import Array
@@ -48,12 +47,8 @@ GOAL = "placed within 10 mm"
 MORAL = "A placed cube is no proof: compare the errors of the joints and of the line."
 RATE = 100.0  # Hz, of the controller; 50 is coarse, 500 the most
 SPEED = 0.6  # share of the joints' limits of speed and acceleration
-# Where `make capstone` has the cube, its goal and its yaw: metres and radians.
-CUBE_XY = (0.5, 0.2)
-GOAL_XY = (0.5, -0.2)
-YAW = 0.5
 
-# What `pick` calls, by the day that teaches it.
+# The functions that `pick` calls, by the day that teaches them.
 USES = {
     1: ("make_T", "inverse", "link_T", "joint_T"),
     2: ("joint_screws", "fk_space"),
@@ -167,11 +162,6 @@ def attempt(fns: Any, seed: int | None = None, **options: Any) -> Result:
     """
     where = () if seed is None else random_task(seed)
     return pick(fns, *where, **options)
-
-
-def film(result: Result) -> Film:
-    """Return what a pick of the cube from where it always is looked like."""
-    return film_of(result, CUBE_XY, YAW)
 
 
 def random_task(seed: int) -> tuple[Array, Array, float]:

@@ -30,7 +30,7 @@ REACHED = 1e-4  # m and rad: an answer of solve_ik further off than this is none
 
 
 class State(NamedTuple):
-    """What the formulas say of one configuration and velocity."""
+    """The kinematics and dynamics at one configuration and velocity."""
 
     T: Array  # T_world_tcp
     J_space: Array
@@ -98,7 +98,7 @@ class Arm:
         J_space = self.fns.space_jacobian(self.screws, q)
         return self.fns.gravity_torque(J_space, masses, coms_world, GRAVITY)
 
-    def way_point(self, T_goal: Array, q: Array) -> tuple[Array, float]:
+    def waypoint(self, T_goal: Array, q: Array) -> tuple[Array, float]:
         """Return q at which the tool is at T_goal, and its manipulability.
 
         Raises:
@@ -125,7 +125,7 @@ class Arm:
         self.inertias = self.empty.carrying(self.fns.combine_bodies, mass, com, I_cube)
         return self.fns.inverse(self.end(q)) @ T_world_cube
 
-    def let_go(self) -> None:
+    def release(self) -> None:
         """Count the hand as empty again."""
         self.inertias = self.empty
 
@@ -170,7 +170,7 @@ class Arm:
             D = fns.critical_damping(STIFFNESS, Lambda)
             wrench = fns.impedance_wrench(e, sd * way - J @ qd, np.diag(STIFFNESS), D)
             Jdot_qd = fns.bias_acceleration(now.J_space, qd, now.T[:3, 3])
-            # What the motion itself needs stands where the bias does.
+            # The torque of the motion itself takes the place of the bias.
             forward = fns.osc_torque(J, Lambda, now.bias, Jdot_qd, sdd * way)
             back = fns.pd_torque(posture - q, -qd, *POSTURE)
             tau_null = fns.nullspace_torque(J, now.M, Lambda, back)

@@ -1,4 +1,4 @@
-"""The capstone's phases, one after the other, and what is measured on the way.
+"""The phases of the pick, and the measurements during them.
 
 Units: metres, radians, seconds, N m; poses `T_world_x` are (4, 4).
 """
@@ -13,6 +13,10 @@ from robo47.capstone.arm import STIFFNESS, Arm, Law
 from robo47.checks import Array
 from robo47.panda import READY_Q
 
+# `make capstone` has the cube, its goal and its yaw here: metres and radians.
+CUBE_XY = (0.5, 0.2)
+GOAL_XY = (0.5, -0.2)
+YAW = 0.5
 HOVER = 0.12  # m over the cube, between joint moves and straight lines
 LINE_SECONDS = 0.75  # duration of those 0.12 m: the hand peaks at 1.23 m/s2
 GRIP_SECONDS = 0.4  # time to close or open the fingers
@@ -46,13 +50,13 @@ PHASES = (
 
 
 class Result(NamedTuple):
-    """What came of it."""
+    """The result of a pick."""
 
     place_mm: float  # distance of the cube's centre from its goal, at the end
     joint_mrad: float  # worst error of any joint in the joint moves
     line_mm: float  # worst distance of the hand from its straight lines
     lift: float  # greatest height of the cube's centre, metres
-    seconds: float  # how long the task took in the simulation
+    seconds: float  # the duration of the task in the simulation
     torque: float  # largest torque asked for, as a fraction of that motor's limit
     speed: float  # largest joint speed, as a fraction of that joint's limit
     manipulability: float  # smallest at the way points
@@ -63,7 +67,7 @@ class Result(NamedTuple):
 
     @property
     def failed(self) -> bool:
-        """Whether the cube was dropped or put down more than 10 mm off."""
+        """The cube was dropped or put down more than 10 mm off."""
         return self.place_mm > 10.0
 
 
@@ -118,7 +122,7 @@ class Task:
         if phase.name == "close":
             self._grasped()
         elif phase.name == "open":
-            self.arm.let_go()
+            self.arm.release()
 
     def _law(self, phase: Phase, q: Array) -> tuple[Law, float]:
         """Return the control law of a phase and how long it takes."""
@@ -130,13 +134,23 @@ class Task:
         if phase.kind == "line":
             T1 = self._tool(phase)
             return self.arm.line(T, T1, LINE_SECONDS, q), LINE_SECONDS
-        q1 = READY_Q.copy()
-        if phase.over:
-            q1, reach = self.arm.way_point(self._tool(phase), q)
-            self.manipulability = min(self.manipulability, reach)
-        v, a = self.speed * simulate.SPEED_LIMITS, self.speed * simulate.ACC_LIMITS
-        seconds = float(self.fns.quintic_duration(q1 - q, v, a))
+        q1 = self._joint_goal(phase, q)
+        seconds = self._seconds(q, q1, self.speed)
         return self.arm.move(q, q1, seconds), seconds
+
+    def _joint_goal(self, phase: Phase, q: Array) -> Array:
+        """Return the configuration at the end of a joint move from q, (7,)."""
+        if not phase.over:
+            return READY_Q.copy()
+        goal, reach = self.arm.waypoint(self._tool(phase), q)
+        self.manipulability = min(self.manipulability, reach)
+        return goal
+
+    def _seconds(self, q0: Array, q1: Array, speed: float) -> float:
+        """Return the duration of a joint move at a fraction of the limits, seconds."""
+        v = speed * simulate.SPEED_LIMITS
+        a = speed * simulate.ACC_LIMITS
+        return float(self.fns.quintic_duration(q1 - q0, v, a))
 
     def _tool(self, phase: Phase) -> Array:
         """Return where the tool has to be, T_world_tcp, (4, 4)."""
@@ -184,23 +198,36 @@ class Task:
             self.watch(model, data)
         return data.qpos.copy()
 
+    def log(self) -> dict[str, Any]:
+        """Return the log, and the cube's distance from its goal at the end.
+
+        A joint move of several legs is one phase.
+        """
+        qpos = np.array([seen for run in self.runs for seen in run.seen])
+        begins: dict[str, float] = {}
+        for name, seconds in self.phases:
+            begins.setdefault(name, seconds)
+        off = qpos[-1, self.cube : self.cube + 3] - self.goal
+        return {
+            "place_mm": 1e3 * float(np.linalg.norm(off)),
+            "seconds": self.now,
+            "phases": list(begins.items()),
+            "t": np.linspace(self.now / len(qpos), self.now, len(qpos)),
+            "qpos": qpos,
+        }
+
     def result(self) -> Result:
         """Return the log and its worst numbers."""
-        qpos = np.array([seen for run in self.runs for seen in run.seen])
-        cube = qpos[:, self.cube : self.cube + 3]
+        log = self.log()
         tau = np.concatenate([run.tau for run in self.runs])
         qd = np.concatenate([run.qd for run in self.runs])
         return Result(
-            place_mm=1e3 * float(np.linalg.norm(cube[-1] - self.goal)),
+            **log,
             joint_mrad=1e3 * self.worst["joint"],
             line_mm=1e3 * self.worst["line"],
-            lift=float(cube[:, 2].max()),
-            seconds=self.now,
+            lift=float(log["qpos"][:, self.cube + 2].max()),
             torque=float((np.abs(tau) / self.arm.tau_max).max()),
             speed=float((np.abs(qd) / simulate.SPEED_LIMITS).max()),
             manipulability=float(self.manipulability),
             heaviest=self.heaviest,
-            phases=self.phases,
-            t=np.linspace(self.now / len(qpos), self.now, len(qpos)),
-            qpos=qpos,
         )

@@ -1,4 +1,4 @@
-"""What the capstone says of a result, and what it looked like.
+"""The summary and the film of a pick.
 
 Units: metres and seconds, in sentences millimetres and milliradians.
 """
@@ -9,8 +9,8 @@ from itertools import pairwise
 import numpy as np
 
 from robo47 import scenes, se3
-from robo47.attempt import Block, Film, Summary
-from robo47.capstone.phases import Result
+from robo47.attempt import Block, Film, Summary, film_of
+from robo47.capstone.phases import CUBE_XY, YAW, Result
 from robo47.checks import Array
 
 HEAD = f"""
@@ -31,7 +31,7 @@ def row(name: str, result: Result) -> str:
 
 
 def summary(result: Result) -> Summary:
-    """Return what is said of a result besides."""
+    """Return the summary of a result."""
     lift = [
         f"lifted {1000 * result.lift:.0f} mm; this grip can lift, as predicted,",
         f"  {result.heaviest:.3f} kg; the cube has {scenes.CUBE_MASS:.3f} kg",
@@ -61,31 +61,24 @@ def phase_lines(phases: Sequence[tuple[str, float]], seconds: float) -> list[str
     ]
 
 
-def film_of(result: Result, cube_xy: tuple[float, float], yaw: float) -> Film:
-    """Return what a pick looked like.
-
-    Args:
-        result: of the pick.
-        cube_xy: where the cube stood, metres, (2,).
-        yaw: its rotation about z then, radians.
-    """
-    return Film(
-        seconds=result.seconds,
-        t=result.t,
-        qpos=result.qpos,
-        phases=result.phases,
+def film(result: Result) -> Film:
+    """Return the film of a pick of the cube of `make capstone`."""
+    return film_of(
+        result,
         moments=MOMENTS,
         blocks=_blocks,
-        model=lambda: scenes.table_top(cube_xy, yaw, meshes=True),
-        back=1.2,
+        model=lambda: scenes.table_top(CUBE_XY, YAW, meshes=True),
     )
 
 
 def _blocks(qpos: Array) -> list[Block]:
-    """Return the table, and the cube where a configuration, (16,), has it."""
+    """Return the table and the cube in a configuration, (16,)."""
     table = se3.make_T(np.eye(3), [*scenes.TABLE_CENTRE, scenes.TABLE_HEIGHT / 2])
+    half = (*scenes.TABLE_HALF, scenes.TABLE_HEIGHT / 2)
+    return [Block(table, half, TABLE), cube_block(qpos)]
+
+
+def cube_block(qpos: Array) -> Block:
+    """Return the cube in a configuration, (16,)."""
     cube = se3.make_T(se3.quat_to_R(qpos[ARM + 3 : ARM + 7]), qpos[ARM : ARM + 3])
-    return [
-        Block(table, (*scenes.TABLE_HALF, scenes.TABLE_HEIGHT / 2), TABLE),
-        Block(cube, (scenes.CUBE_HALF,) * 3, CUBE),
-    ]
+    return Block(cube, (scenes.CUBE_HALF,) * 3, CUBE)

@@ -26,13 +26,13 @@ from robo47 import (
     planning,
     scenes,
 )
-from robo47.attempt import Film
+from robo47.capstone.phases import CUBE_XY, GOAL_XY, YAW
 from robo47.checks import Array
 from robo47.delivery import result, scene
-from robo47.delivery.phases import PHASES, Asked, Delivery
+from robo47.delivery.phases import PHASES, Delivery, Options
 from robo47.delivery.result import Result
 from robo47.delivery.summary import HEAD as HEAD
-from robo47.delivery.summary import film_of
+from robo47.delivery.summary import film as film
 from robo47.delivery.summary import row as row
 from robo47.delivery.summary import summary as summary
 
@@ -40,14 +40,10 @@ NAME = "the delivery"
 THING = "cube"
 GOAL = "delivered: seen, weighed and put down within 10 mm, nothing touched"
 MORAL = "Delivered is no proof: look at the grams, the clearance and the residual."
-# Where `make capstone` has the cube, its goal, its yaw and its mass.
-CUBE_XY = (0.5, 0.2)  # m
-GOAL_XY = (0.5, -0.2)  # m
-YAW = 0.5  # rad
 MASS = 0.15  # kg: at Week 1's speed it slips out of the hand
 PUSH = 10.0  # N
 
-# What `attempt` calls besides Week 1's functions, by the day that teaches it.
+# The functions that `attempt` calls besides Week 1's, by the day that teaches them.
 MODULES = {
     8: identification,
     9: estimation,
@@ -79,7 +75,7 @@ def deliver(
     cube_xy: ArrayLike,
     goal_xy: ArrayLike,
     yaw: float,
-    asked: Asked | None = None,
+    options: Options | None = None,
 ) -> Result:
     """Deliver a cube whose pose and mass are not given to the arm.
 
@@ -87,18 +83,18 @@ def deliver(
         fns: has an attribute for every name in `USES`.
         cube_xy, goal_xy: where the cube stands, and is to stand, metres, (2,).
         yaw: its rotation about z at the start, radians.
-        asked: what is otherwise than usual.
+        options: changes of the usual attempt.
 
     Raises:
         ValueError: a wrong shape or number, or a place that is not on the table.
         Robo47Error: no cube is seen, or there is no way.
     """
-    asked = asked or Asked()
+    options = options or Options()
     goal_xy = scenes.on_table(goal_xy, "goal_xy")
     model = scene.table_with_wall(
-        cube_xy, yaw, asked.mass, friction=asked.friction, wall=asked.wall
+        cube_xy, yaw, options.mass, friction=options.friction, wall=options.wall
     )
-    task = Delivery(fns, model, goal_xy, asked)
+    task = Delivery(fns, model, goal_xy, options)
     for phase in PHASES:
         task.run(phase)
     return result.of(task)
@@ -110,24 +106,19 @@ def attempt(fns: Any, seed: int | None = None, **options: Any) -> Result:
     Args:
         fns: as for `deliver`.
         seed: of the random task; None is always the same one.
-        options: fields of `Asked`.
+        options: fields of `Options`.
     """
     if seed is not None:
         cube_xy, goal_xy, yaw, mass = random_task(seed)
-        asked = Asked(**{"mass": mass, **options})
-        return deliver(fns, cube_xy, goal_xy, yaw, asked)
-    found = deliver(fns, CUBE_XY, GOAL_XY, YAW, Asked(**{"mass": MASS, **options}))
+        changed = Options(**{"mass": mass, **options})
+        return deliver(fns, cube_xy, goal_xy, yaw, changed)
+    found = deliver(fns, CUBE_XY, GOAL_XY, YAW, Options(**{"mass": MASS, **options}))
     if options:
         return found
-    pushed = deliver(fns, CUBE_XY, GOAL_XY, YAW, Asked(mass=MASS, push=PUSH))
+    pushed = deliver(fns, CUBE_XY, GOAL_XY, YAW, Options(mass=MASS, push=PUSH))
     return found._replace(
-        pushed=True, noticed_ms=pushed.noticed_ms, contact_link=pushed.link
+        pushed=True, detection_ms=pushed.detection_ms, contact_link=pushed.link
     )
-
-
-def film(found: Result) -> Film:
-    """Return what a delivery of the cube from where it always is looked like."""
-    return film_of(found, CUBE_XY, YAW)
 
 
 def random_task(seed: int) -> tuple[Array, Array, float, float]:
@@ -156,9 +147,9 @@ def ablations(fns: Any) -> dict[str, tuple[Any, dict[str, Any]]]:
     changed: dict[str, dict[str, Any]] = {
         "right": {"mass": MASS},
         "right, 80 g": {"mass": light},
-        "told where the cube is": {"mass": light, "told": True},
+        "told where the cube is": {"mass": light, "known_pose": True},
         "depths with 1 mm of noise": {"mass": light, "noise": 0.001},
-        "seen 10 mm beside": {"mass": light, "beside": 0.01},
+        "seen 10 mm beside": {"mass": light, "offset": 0.01},
         "straight, no plan": {"mass": light, "planned": False},
         "planned without the hand": {"mass": light, "hand": False},
         "weighed for 0.4 s": {"mass": light, "weigh": 0.4},

@@ -1,4 +1,4 @@
-"""A watch on the arm: Day 9's observer beside the controller, which stops it.
+"""The contact monitor: Day 9's momentum observer, which can stop the arm.
 
 N m, seconds.
 """
@@ -14,31 +14,31 @@ THRESHOLD = 0.35  # N m, of any joint
 
 
 class ContactMonitor:
-    """The torque that nobody commanded, sample by sample.
+    """The external torque, sample by sample.
 
     Attributes:
         residual: N m, (7,), of the last sample.
         worst: the largest of any joint and sample so far, N m.
-        link: which link felt something over the threshold first, 1 to 7; 0 for none.
+        link: the first link with a torque above the threshold, 1 to 7; 0 for none.
     """
 
     def __init__(self, fns: Any, damping: Array, dt: float):
-        """Begin with nothing felt; `dt` is the time between two samples."""
+        """Begin without a contact; `dt` is the time between two samples."""
         self.fns = fns
         self.damping = damping
         self.dt = dt
         self.worst = 0.0
         self.link = 0
-        self.begin()
+        self.reset()
 
-    def begin(self) -> None:
+    def reset(self) -> None:
         """Forget the momentum: what the arm carries, or its reference, has changed."""
         self.residual = np.zeros(7)
         self.integral: Array | None = None
         self.known: tuple[Array, ...] = ()
 
-    def feel(self, M: Array, qd: Array) -> int:
-        """Take a sample of the arm as it moves now; return the link that feels it."""
+    def update(self, M: Array, qd: Array) -> int:
+        """Take a sample of the moving arm; return the link in contact, or 0."""
         p = M @ qd
         if self.integral is None:
             self.integral = p
@@ -52,6 +52,6 @@ class ContactMonitor:
             self.link = link
         return link
 
-    def commanded(self, tau: Array, slope: Array, gravity: Array, qd: Array) -> None:
+    def commanded(self, tau: Array, gradient: Array, gravity: Array, qd: Array) -> None:
         """Take what is known of the time until the next sample, (7,) each."""
-        self.known = tau, slope, gravity, self.damping, qd
+        self.known = tau, gradient, gravity, self.damping, qd

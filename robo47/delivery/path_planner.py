@@ -17,7 +17,7 @@ from robo47.shapes import Capsule, Shape, World, capsules_of
 
 MARGIN = 0.008  # m, that a planned way keeps from everything
 STEP = 0.6  # rad, the longest edge of a tree
-SAMPLES = 400  # before the planner gives up
+SAMPLES = 400  # the planner gives up after these
 CUTS = 60  # shortcuts that are tried
 SEED = 12  # the seed of samples and shortcuts
 LEAST = 1e-3  # share of an edge between two looks: at a touch the step is 0
@@ -34,7 +34,7 @@ class PathPlanner:
     """A planner for the arm among the table and the wall.
 
     Attributes:
-        looks: how often a distance was asked for.
+        queries: the number of distance queries.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class PathPlanner:
         self.reach = fns.distal_radii(*self.shape.lengths)
         self.limits, _ = simulate.limits(model)
         self.rng = np.random.default_rng(SEED)
-        self.looks = 0
+        self.queries = 0
 
     def edge_free(self, a: Array, b: Array) -> bool:
         """Return whether the straight path from a to b keeps its margin, (7,) each.
@@ -70,7 +70,7 @@ class PathPlanner:
         """
         s = 0.0
         for _ in range(LOOKS):
-            self.looks += 1
+            self.queries += 1
             free = float(self.shape.clearance(a + s * (b - a), self.world)) - MARGIN
             if free <= 0.0:
                 return False
@@ -104,9 +104,9 @@ class PathPlanner:
             return np.array([a, b])
         low, high = self.limits.T
         samples = self.rng.uniform(low, high, (SAMPLES, 7))
-        way = self.fns.rrt_connect(a, b, self, samples, STEP)
-        if len(way) < 2:
+        path = self.fns.rrt_connect(a, b, self, samples, STEP)
+        if len(path) < 2:
             raise Robo47Error(
                 f"no way: rrt_connect (task 12.4) found none with {SAMPLES} samples"
             )
-        return self.fns.shortcut(way, self, self.rng.random((CUTS, 2)))
+        return self.fns.shortcut(path, self, self.rng.random((CUTS, 2)))

@@ -1,4 +1,4 @@
-"""Where the cube stands: a depth image, cut out and fitted with the cube's faces.
+"""The pose of the cube: a depth image, segmented and fitted with the cube's faces.
 
 Metres; poses `T_world_x` are (4, 4).
 """

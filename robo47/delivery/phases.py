@@ -1,7 +1,7 @@
-"""The delivery's phases, one after the other, and what is measured on the way.
+"""The phases of the delivery, and the measurements during them.
 
-What a joint move, a straight line and a grip are is the pick's
-(`robo47.capstone.phases`); new are the path around the wall, the scale and the watch.
+`robo47.capstone.phases` defines joint moves, straight lines and grips. The path around
+the wall, the weighing and the contact monitor are new.
 
 Units: metres, radians, seconds, kilograms, N m; poses `T_world_x` are (4, 4).
 """
@@ -15,7 +15,8 @@ import numpy as np
 from robo47 import scenes, simulate
 from robo47.arm import GRAVITY
 from robo47.capstone.arm import Law
-from robo47.capstone.phases import CLOSED, HOVER, OPEN, Phase, Task
+from robo47.capstone.phases import CLOSED, HOVER, Phase, Task
+from robo47.capstone.phases import PHASES as PICK
 from robo47.checks import Array
 from robo47.delivery.contact_monitor import ContactMonitor
 from robo47.delivery.path_planner import PathPlanner
@@ -32,30 +33,20 @@ INSTANTS = 41  # instants of a move at which its acceleration is checked
 PUSH_AFTER = 0.5  # s after the carry began
 EMPTY = 0.010  # kg: what weighs less is no cube
 
-PHASES = (
-    Phase("reach", "joint", "cube", HOVER, OPEN),
-    Phase("descend", "line", "cube", 0.0, OPEN),
-    Phase("close", "hold", "cube", 0.0, CLOSED),
-    Phase("lift", "line", "cube", HOVER, CLOSED),
-    Phase("weigh", "weigh", "cube", HOVER, CLOSED),
-    Phase("carry", "joint", "goal", HOVER, CLOSED),
-    Phase("put down", "line", "goal", 0.0, CLOSED),
-    Phase("open", "hold", "goal", 0.0, OPEN),
-    Phase("leave", "line", "goal", HOVER, OPEN),
-    Phase("go home", "joint", "", 0.0, OPEN),
-    Phase("rest", "rest", "", 0.0, OPEN),
-)
+LIFTED = 1 + [phase.name for phase in PICK].index("lift")
+WEIGH = Phase("weigh", "weigh", "cube", HOVER, CLOSED)
+PHASES = (*PICK[:LIFTED], WEIGH, *PICK[LIFTED:])
 
 
-class Asked(NamedTuple):
-    """What an attempt is asked to do otherwise, to see what it changes."""
+class Options(NamedTuple):
+    """Changes of an attempt, to see their effects."""
 
     mass: float = scenes.CUBE_MASS  # mass of the cube, kg
     friction: float = scenes.FRICTION  # coefficient of friction between cube and pads
     wall: bool = True
-    told: bool = False  # the cube's place is given instead of perceived
+    known_pose: bool = False  # the cube's place is given instead of perceived
     noise: float = 0.0  # standard deviation of the depths, m
-    beside: float = 0.0  # m along x, added to where it was seen
+    offset: float = 0.0  # m along x, added to where it was seen
     weigh: float = WEIGH_SECONDS  # s; 0: it is not weighed and counts as nothing
     speed: float = 0.0  # share of the limits while carrying; 0: as the weight allows
     planned: bool = True  # False: straight from pose to pose
@@ -66,21 +57,23 @@ class Asked(NamedTuple):
 class Delivery(Task):
     """The model, the state of the world and what has been measured so far."""
 
-    def __init__(self, fns: Any, model: mujoco.MjModel, goal_xy: Array, asked: Asked):
+    def __init__(
+        self, fns: Any, model: mujoco.MjModel, goal_xy: Array, options: Options
+    ):
         """Put the arm at the ready and look at the table."""
         super().__init__(fns, model, goal_xy, SPEEDS[0], None)
-        self.asked = asked
-        self.stood = self.T_world_cube
-        if not asked.told:
-            self.T_world_cube = cube_seen(fns, model, self.data, noise=asked.noise)
-        self.T_world_cube[0, 3] += asked.beside
-        self.seen = self.T_world_cube.copy()
-        self.ways = PathPlanner(fns, model, wall=asked.wall, hand=asked.hand)
-        self.watching = ContactMonitor(fns, self.arm.damping, 1.0 / RATE)
-        self.weighed = 0.0
-        self.carried = 0.0  # the speed of the carry, as a fraction of the limits
+        self.options = options
+        self.true_pose = self.T_world_cube
+        if not options.known_pose:
+            self.T_world_cube = cube_seen(fns, model, self.data, noise=options.noise)
+        self.T_world_cube[0, 3] += options.offset
+        self.perceived = self.T_world_cube.copy()
+        self.planner = PathPlanner(fns, model, wall=options.wall, hand=options.hand)
+        self.monitor = ContactMonitor(fns, self.arm.damping, 1.0 / RATE)
+        self.measured_mass = 0.0
+        self.carry_speed = 0.0  # the speed of the carry, as a fraction of the limits
         self.driven: list[Array] = []  # configurations of the joint moves
-        self.pushed_at = self.felt_at = np.nan  # seconds of the simulation
+        self.pushed_at = self.detected_at = np.nan  # seconds of the simulation
         self.corner = READY_Q  # the end of the present leg of a joint move
         self.stopped = ""  # why it did not go on
 
@@ -92,25 +85,23 @@ class Delivery(Task):
             self._go(phase, rate)
         elif phase.kind != "weigh":
             super().run(phase, rate)
-        elif self.asked.weigh:
+        elif self.options.weigh:
             super().run(phase, rate)
             self._weigh()
 
     def _go(self, phase: Phase, rate: float) -> None:
         """Plan a joint move and drive it."""
         q = self._q()
-        goal = READY_Q
-        if phase.over:
-            goal, reach = self.arm.way_point(self._tool(phase), q)
-            self.manipulability = min(self.manipulability, reach)
-        way = self.ways.find(q, goal) if self.asked.planned else np.array([q, goal])
+        goal = self._joint_goal(phase, q)
+        planned = self.options.planned
+        path = self.planner.find(q, goal) if planned else np.array([q, goal])
         self.speed = SPEEDS[0]
         if phase.name == "carry":
-            self.carried = self.speed = self._slow_enough(way)
+            self.carry_speed = self.speed = self._slow_enough(path)
             if self.stopped:
                 return
             self._disturb()
-        for self.corner in way[1:]:
+        for self.corner in path[1:]:
             super().run(phase, rate)
             self.driven.append(self.runs[-1].q)
             if self.stopped:
@@ -120,7 +111,7 @@ class Delivery(Task):
     def _law(self, phase: Phase, q: Array) -> tuple[Law, float]:
         """Return the control law of a phase, or of one leg of it, and its seconds."""
         if phase.kind == "weigh":
-            return self._scale(q), self.asked.weigh
+            return self._scale(q), self.options.weigh
         if phase.kind != "joint":
             return super()._law(phase, q)
         seconds = self._seconds(q, self.corner, self.speed)
@@ -140,62 +131,62 @@ class Delivery(Task):
         return torque
 
     def _watched(self, law: Law) -> Law:
-        """Return a law that holds still as soon as something unknown is felt."""
-        self.watching.begin()
+        """Return a law that holds the arm still after an unknown contact."""
+        self.monitor.reset()
 
         def torque(t: float, q: Array, qd: Array) -> Array:
             now = self.arm.at(q, qd)
-            if not self.stopped and self.watching.feel(now.M, qd):
-                self.felt_at = float(self.data.time)
-                link = self.watching.link
+            if not self.stopped and self.monitor.update(now.M, qd):
+                self.detected_at = float(self.data.time)
+                link = self.monitor.link
                 self.stopped = f"link {link} felt what nobody commanded"
                 self.hold_still = self.arm.rest(q)
             tau = self.hold_still(t, q, qd) if self.stopped else law(t, q, qd)
             tau = self.fns.saturate(tau, self.arm.tau_max)
-            slope = self.fns.kinetic_energy_gradient(now.J_space, now.G, qd)
-            self.watching.commanded(tau, slope, self.arm.gravity(q), qd)
+            gradient = self.fns.kinetic_energy_gradient(now.J_space, now.G, qd)
+            self.monitor.commanded(tau, gradient, self.arm.gravity(q), qd)
             return tau
 
         return torque
 
     def _grasped(self) -> None:
-        """Take the cube for where it was seen; what it weighs nobody knows yet."""
-        self.T_tcp_cube = self.fns.inverse(self.arm.end(self._q())) @ self.seen
+        """Count the cube at its perceived pose; its mass is unknown yet."""
+        self.T_tcp_cube = self.fns.inverse(self.arm.end(self._q())) @ self.perceived
 
     def _weigh(self) -> None:
-        """Work out what hangs on the hand, and count it as part of it."""
+        """Identify the payload, and count it as part of the hand."""
         fns = self.fns
         q = self.runs[-1].q[-2]  # the configuration of the last commanded torque
         now = self.arm.at(q, np.zeros(7))
         J_site = fns.site_jacobian(now.J_space, now.T[:3, 3])
         extra = self.runs[-1].tau[-1] - self.arm.gravity(q)
         holds = J_site[None], now.T[None, :3, :3], extra[None]
-        self.weighed = float(fns.identify_payload(*holds, GRAVITY)[0])
-        if not self.weighed >= -EMPTY:  # NaN, too
-            grams = f"{1e3 * self.weighed:.0f} g"
+        self.measured_mass = float(fns.identify_payload(*holds, GRAVITY)[0])
+        if not self.measured_mass >= -EMPTY:  # NaN, too
+            grams = f"{1e3 * self.measured_mass:.0f} g"
             self.stopped = f"it weighs {grams}: is identify_payload (task 8.8) right?"
-        elif self.weighed < EMPTY:
+        elif self.measured_mass < EMPTY:
             self.stopped = "there is nothing in the hand"
         else:
-            self._hold(self.weighed, now.T @ self.T_tcp_cube)
+            self._hold(self.measured_mass, now.T @ self.T_tcp_cube)
 
-    def _slow_enough(self, way: Array) -> float:
+    def _slow_enough(self, path: Array) -> float:
         """Return the first of the speeds at which this grip holds what was weighed.
 
         The hand's acceleration is taken to be upwards, where it costs the most.
         """
-        if self.asked.speed:
-            return self.asked.speed
+        if self.options.speed:
+            return self.options.speed
         for speed in SPEEDS:
-            if self._can_lift(self._acceleration(way, speed)) >= self.weighed:
+            if self._can_lift(self._acceleration(path, speed)) >= self.measured_mass:
                 return speed
-        self.stopped = f"{1e3 * self.weighed:.0f} g are too heavy for this grip"
+        self.stopped = f"{1e3 * self.measured_mass:.0f} g are too heavy for this grip"
         return 0.0
 
-    def _acceleration(self, way: Array, speed: float) -> float:
+    def _acceleration(self, path: Array, speed: float) -> float:
         """Return the hand's largest acceleration along a path, m/s2."""
         most = 0.0
-        for q0, q1 in pairwise(way):
+        for q0, q1 in pairwise(path):
             T = self._seconds(q0, q1, speed)
             t = np.linspace(0.0, T, INSTANTS)
             q = [self.fns.joint_trajectory(q0, q1, now, T)[0] for now in t]
@@ -204,17 +195,12 @@ class Delivery(Task):
             most = max(most, float(np.linalg.norm(change, axis=1).max()))
         return most
 
-    def _seconds(self, q0: Array, q1: Array, speed: float) -> float:
-        v = speed * simulate.SPEED_LIMITS
-        a = speed * simulate.ACC_LIMITS
-        return float(self.fns.quintic_duration(q1 - q0, v, a))
-
     def _disturb(self) -> None:
-        """Push the hand from now on a little later, if asked to."""
-        if not self.asked.push:
+        """Push the hand a little later, if the options say so."""
+        if not self.options.push:
             return
         self.pushed_at = float(self.data.time) + PUSH_AFTER
-        push = simulate.push_at("tcp", [0.0, 0.0, 0.0, 0.0, 0.0, -self.asked.push])
+        push = simulate.push_at("tcp", [0.0, 0.0, 0.0, 0.0, 0.0, -self.options.push])
 
         def later(model: mujoco.MjModel, data: mujoco.MjData) -> None:
             if data.time >= self.pushed_at:

@@ -1,4 +1,4 @@
-"""What came of a delivery.
+"""The result of a delivery.
 
 Units: metres, radians, seconds, kilograms, N m; in names millimetres and grams.
 """
@@ -16,7 +16,7 @@ NEAREST = 5  # instants of the way at which `capsule_box_distance` has the last 
 
 
 class Result(NamedTuple):
-    """What came of it."""
+    """The result of a delivery."""
 
     place_mm: float  # distance of the cube's centre from its goal, at the end
     seen_mm: float  # distance of the perceived cube from the true one
@@ -27,54 +27,45 @@ class Result(NamedTuple):
     residual: float  # largest torque that nobody commanded, of any joint, N m
     link: int  # the first link whose contact was detected; 0: none
     contact_link: int  # the same of a second run, in which somebody pushes
-    noticed_ms: float  # how long after a push it was felt; nan where none was
+    detection_ms: float  # the delay between a push and its detection; nan without one
     stopped: str  # why it did not go on; "" where it did
-    seconds: float  # how long the task took in the simulation
-    looks: int  # how often the planner asked for a distance
+    seconds: float  # the duration of the task in the simulation
+    queries: int  # the number of distance queries of the planner
     phases: list[tuple[str, float]]  # (name, when it began in seconds), in order
     t: Array  # time of each control instant, seconds, (N,)
     qpos: Array  # everything's configuration then, (N, nq): for pictures and replays
-    pushed: bool = False  # whether somebody pushed, here or in the second run
+    pushed: bool = False  # somebody pushed, in this run or in the second one
 
     @property
     def failed(self) -> bool:
-        """Whether it is not delivered, or a number that counts is off."""
+        """The cube is not delivered, or an important number is off."""
         good = (
             not self.stopped
             and self.place_mm < 10.0
             and self.seen_mm < 3.0
             and abs(self.grams - 1e3 * self.mass) < 1.0
             and self.clearance_mm > 0.0
-            and (self.noticed_ms > 0.0 or not self.pushed)
+            and (self.detection_ms > 0.0 or not self.pushed)
         )
         return not good
 
 
 def of(task: Delivery) -> Result:
-    """Return what came of a task, as far as it went."""
-    qpos = np.array([seen for run in task.runs for seen in run.seen])
-    cube = qpos[:, task.cube : task.cube + 3]
-    names = [name for name, _ in task.phases]
-    # the first index of each leg
-    first = [i for i, name in enumerate(names) if name not in names[:i]]
+    """Return the result of a task, as far as it went."""
     return Result(
-        place_mm=1e3 * float(np.linalg.norm(cube[-1] - task.goal)),
-        seen_mm=1e3 * float(np.linalg.norm((task.seen - task.stood)[:3, 3])),
-        grams=1e3 * task.weighed,
-        mass=task.asked.mass,
-        speed=task.carried,
+        **task.log(),
+        seen_mm=1e3 * float(np.linalg.norm((task.perceived - task.true_pose)[:3, 3])),
+        grams=1e3 * task.measured_mass,
+        mass=task.options.mass,
+        speed=task.carry_speed,
         clearance_mm=1e3 * clearance(task),
-        residual=task.watching.worst,
-        link=task.watching.link,
-        contact_link=task.watching.link if task.asked.push else 0,
-        noticed_ms=1e3 * (task.felt_at - task.pushed_at),
+        residual=task.monitor.worst,
+        link=task.monitor.link,
+        contact_link=task.monitor.link if task.options.push else 0,
+        detection_ms=1e3 * (task.detected_at - task.pushed_at),
         stopped=task.stopped,
-        seconds=task.now,
-        looks=task.ways.looks,
-        phases=[task.phases[i] for i in first],
-        t=np.linspace(task.now / len(qpos), task.now, len(qpos)),
-        qpos=qpos,
-        pushed=bool(task.asked.push),
+        queries=task.planner.queries,
+        pushed=bool(task.options.push),
     )
 
 
@@ -86,7 +77,7 @@ def clearance(task: Delivery) -> float:
     are.
     """
     shape = Shape(task.model, capsules_of(task.model))
-    world = World.of(boxes=scene.boxes(task.asked.wall))
+    world = World.of(boxes=scene.boxes(task.options.wall))
     q = np.concatenate(task.driven)
     apart = shape.distances(q, world).reshape(len(q), -1)
     nearest = np.argsort(apart.min(axis=1), kind="stable")[:NEAREST]

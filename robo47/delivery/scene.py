@@ -54,7 +54,8 @@ def table_with_wall(
         geom = spec.worldbody.add_geom(
             name="wall", type=mujoco.mjtGeom.mjGEOM_BOX, pos=WALL_AT, size=WALL_HALF
         )
-        geom.contype = geom.conaffinity = 1  # else nothing happens 45 mm inside it
+        # Without this the arm would pass through the wall.
+        geom.contype = geom.conaffinity = 1
         geom.rgba = [0.45, 0.55, 0.70, 1.0]
 
     return scenes.table_top(

@@ -1,11 +1,12 @@
-"""What the delivery says of a result, and what it looked like.
+"""The summary and the film of a delivery.
 
 Units: metres and seconds, in sentences millimetres, grams and milliseconds.
 """
 
-from robo47 import depth_camera, scenes, se3
-from robo47.attempt import Block, Film, Summary
-from robo47.capstone.summary import ARM, CUBE, TABLE, phase_lines
+from robo47 import depth_camera
+from robo47.attempt import Block, Film, Summary, film_of
+from robo47.capstone.phases import CUBE_XY, YAW
+from robo47.capstone.summary import TABLE, cube_block, phase_lines
 from robo47.checks import Array
 from robo47.delivery import scene
 from robo47.delivery.contact_monitor import THRESHOLD
@@ -28,13 +29,13 @@ def row(name: str, result: Result) -> str:
 
 
 def summary(result: Result) -> Summary:
-    """Return what is said of a result besides."""
-    after = [f"the planner asked for {result.looks:,} distances"]
+    """Return the summary of a result."""
+    after = [f"the planner asked for {result.queries:,} distances"]
     if result.stopped:
         after.append(f"it stopped: {result.stopped}")
     if result.pushed:
-        felt = f"link {result.contact_link} feels it after {result.noticed_ms:.0f} ms"
-        felt = felt if result.noticed_ms > 0.0 else "nothing is felt"
+        felt = f"link {result.contact_link} feels it after {result.detection_ms:.0f} ms"
+        felt = felt if result.detection_ms > 0.0 else "nothing is felt"
         after.append(f"pushed by 10 N in a second carry: {felt}")
     came = "The arm finds a cube that nobody told it about, weighs it and puts it down"
     return Summary(
@@ -52,7 +53,7 @@ def summary(result: Result) -> Summary:
 
 
 def figures(result: Result) -> list[tuple[str, str, str]]:
-    """Return what was measured: (what, how much with its unit, what is allowed)."""
+    """Return the measured quantities: (name, value with its unit, limit)."""
     known = 1e3 * result.mass
     found = [
         ("seen, from where the cube stood", f"{result.seen_mm:.1f} mm", "under 3 mm"),
@@ -74,38 +75,27 @@ def figures(result: Result) -> list[tuple[str, str, str]]:
         found.append(("put down, from its mark", place, "under 10 mm"))
     if result.pushed:
         after = "a push of 10 N in a second carry, felt after"
-        felt = result.noticed_ms > 0.0
-        value = f"{result.noticed_ms:.0f} ms" if felt else "not felt"
+        felt = result.detection_ms > 0.0
+        value = f"{result.detection_ms:.0f} ms" if felt else "not felt"
         found.append((after, value, "felt"))
     return found
 
 
-def film_of(result: Result, cube_xy: tuple[float, float], yaw: float) -> Film:
-    """Return what a delivery looked like.
-
-    Args:
-        result: of the delivery.
-        cube_xy: where the cube stood, metres, (2,).
-        yaw: its rotation about z then, radians.
-    """
-    return Film(
-        seconds=result.seconds,
-        t=result.t,
-        qpos=result.qpos,
-        phases=result.phases,
+def film(result: Result) -> Film:
+    """Return the film of a delivery of the cube of `make capstone`."""
+    return film_of(
+        result,
         moments=MOMENTS,
         blocks=_blocks,
-        model=lambda: scene.table_with_wall(cube_xy, yaw, result.mass, meshes=True),
-        back=1.2,
+        model=lambda: scene.table_with_wall(CUBE_XY, YAW, result.mass, meshes=True),
     )
 
 
 def _blocks(qpos: Array) -> list[Block]:
-    """Return table, wall and eye, and the cube where a configuration, (16,), has it."""
-    cube = se3.make_T(se3.quat_to_R(qpos[ARM + 3 : ARM + 7]), qpos[ARM : ARM + 3])
+    """Return the table, the wall, the eye and the cube in a configuration, (16,)."""
     still = zip(scene.boxes(), (TABLE, WALL), strict=True)
     return [
         *[Block(T, tuple(half), colour) for (T, half), colour in still],
         Block(depth_camera.look_at(scene.EYE_AT, scene.EYE_TO), scene.EYE_HALF, EYE),
-        Block(cube, (scenes.CUBE_HALF,) * 3, CUBE),
+        cube_block(qpos),
     ]

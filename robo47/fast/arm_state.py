@@ -81,7 +81,7 @@ SPATIAL = _spatial_map()
 
 
 class Constants:
-    """What does not depend on q, of a `robo47.arm.Arm`."""
+    """The constants of a `robo47.arm.Arm`, which do not depend on q."""
 
     def __init__(self, arm: Any) -> None:
         n = len(arm.masses)
@@ -90,14 +90,14 @@ class Constants:
         S[:, :3, 3] = arm.screws[:, 3:]
         S2 = S @ S
         S3 = S @ S @ S
-        # What 1, q, cos q and sin q are multiplied with, (n, 4, 16), in e^[S]q =
+        # The factors of 1, q, cos q and sin q, (n, 4, 16), in e^[S]q =
         # 1 + [S] q + [S]^2 (1 - cos q) + [S]^3 (q - sin q) (Modern Robotics, eq. 3.85).
         powers = np.stack([np.eye(4) + S2, S + S3, -S2, -S3], axis=1)
         self.powers = powers.reshape(n, 4, 16)
         self.ones = np.ones(n)
         self.pairs = arm.screws.reshape(n, 2, 3).copy()  # omega and v of each joint
         P = pseudo_inertias(arm.masses, arm.coms, arm.inertias)
-        # Of the links at q = 0, about the world's origin, (n, 4, 4).
+        # The pseudo-inertias of the links at q = 0 about the world's origin, (n, 4, 4).
         self.pseudo = arm.T_zero @ P @ np.swapaxes(arm.T_zero, -1, -2)
         self.before = np.tri(n)  # before @ x sums x outwards
         self.after = self.before.T.copy()  # after @ x sums x inwards, from the tip
@@ -185,7 +185,7 @@ class ArmState:
 
     @cached_property
     def _momenta(self) -> Array:
-        """What speed 1 of each joint gives to its link and all after it, (n, 6)."""
+        """The momentum of each link and all after it at joint speed 1, (n, 6)."""
         n = len(self.q)
         carried = (self._c.after @ self._P.reshape(n, 16) @ SPATIAL).reshape(n, 6, 6)
         return (carried @ self._S[:, :, None])[:, :, 0]

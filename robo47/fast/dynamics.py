@@ -198,7 +198,7 @@ def _mass_matrices(links: Sequence[Link], cos: Array, sin: Array) -> Array:
 
 
 class _Body:
-    """What a joint carries, as one body: m, h and Q about the frame's origin."""
+    """The bodies distal to a joint as one body: m, h and Q about the frame's origin."""
 
     def __init__(self) -> None:
         self.m = 0.0

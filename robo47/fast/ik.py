@@ -27,7 +27,7 @@ from robo47.screws import fk_space
 
 REACHED = 1e-8  # the norm of the pose error (radians and metres) of a solution
 # Targets at once. Their table of distances to DRAWN poses is the largest array, 8 MB.
-# Of 4,096 it would be 33 MB, for a third less time (measured).
+# A chunk of 4,096 would take 33 MB, for a third less time (measured).
 CHUNK = 1024
 # Walkers at once while targets are left, at least: with one for each, 2 of 1,024 random
 # targets stay unreached after all rounds (measured).

@@ -32,14 +32,14 @@ class Many:
         self._low, self._high = limits
         self._q = q
         self._target = target
-        self._walker = np.arange(q.shape[1])  # who they were in the beginning
+        self._walker = np.arange(q.shape[1])  # the walkers' indices at the start
         self._arrived = np.zeros(goals.shape[-1], dtype=bool)  # per target
         self.best = q.copy()
         self.miss = np.full(q.shape[1], np.inf)
 
     @property
     def walking(self) -> int:
-        """How many have not ended."""
+        """The number of walkers that have not ended."""
         return self._q.shape[1]
 
     def look(self) -> Array:

@@ -1,4 +1,4 @@
-"""How inverse kinematics walks downhill: the steps, their damping, and when to stop.
+"""The steps of inverse kinematics, their damping, and the stopping rule.
 
 Levenberg-Marquardt steps with the joint limits kept; the damping follows the error
 (Sugihara, "Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt
@@ -21,7 +21,7 @@ NEAR_PI = -0.9
 
 
 class Patience(NamedTuple):
-    """How a walker goes, and when it gives up."""
+    """The parameters of a walker, and the limits at which it gives up."""
 
     steps: int  # the largest number of steps
     every: int  # steps between two looks at the squared error

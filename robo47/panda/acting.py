@@ -1,4 +1,4 @@
-"""What acts on the seven joints of a model and is no part of an `Arm`, by name."""
+"""Elements that act on the joints of a model and are no part of an `Arm`, by name."""
 
 from collections.abc import Iterator
 

@@ -26,7 +26,7 @@ ENDS = ("site:attachment_site", "body:hand")
 
 
 class Inertias(NamedTuple):
-    """What n bodies weigh, and where."""
+    """The masses, centres of mass and inertias of n bodies."""
 
     masses: Array  # kilograms, (n,)
     coms: Array  # centres of mass in the links' own frames, metres, (n, 3)

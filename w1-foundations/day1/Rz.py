@@ -35,17 +35,19 @@ def small_angle_formula(theta, below=0.1):
 
 @row.wrongs(hidden={"small-angle-formula": "the lab draws hardly any angle so small"})
 def _(theta):
-    """turns-backwards: your code rotates in the wrong sense. A positive angle should
-      rotate x towards y => Rz(-theta)
-    sin-and-cos-swapped: the sine and the cosine are swapped: at 0 the matrix already
-      rotates by 90 degrees
-    minus-missing: neither sine has a minus sign, so the matrix is not orthonormal
-    minus-twice: both sines have a minus sign, so the matrix is not orthonormal
-    reflection: a cosine has the minus sign that belongs to a sine, so the matrix is a
+    """turns-backwards: your code rotates in the wrong direction. A positive angle
+      should rotate the x axis towards the y axis
+    sin-and-cos-swapped: your code swaps the sine and the cosine, so at theta = 0 the
+      matrix already rotates by 90 degrees
+    minus-missing: neither of your sines has a minus sign, so the matrix is not
+      orthonormal
+    minus-twice: both of your sines have a minus sign, so the matrix is not orthonormal
+    reflection: your minus sign is on a cosine instead of a sine, so the matrix is a
       reflection (det R = -1)
-    small-angle-formula: your code replaces the sine of a small angle by the angle and
-      its cosine by 1, which is only approximate
-    z-lost: the last diagonal entry is 0, so the z component of a point is lost
+    small-angle-formula: for small angles, your code replaces the sine by the angle and
+      the cosine by 1, which is only an approximation
+    z-lost: your last diagonal entry is 0, so the matrix sets the z component of every
+      point to 0
     """
     c, s = np.cos(theta), np.sin(theta)
     return {
@@ -60,12 +62,10 @@ def _(theta):
 
 
 for axis, about in (("x", se3.Rx), ("y", se3.Ry)):
-    says = f"the rotation is about {axis}; it should be about z"
-    row.wrong(f"turns-about-{axis}", says, f"a rotation about {axis}")(about)
-    says = f"the rotation is about {axis}, with the wrong sense; it should be about z"
-    row.wrong(f"turns-about-{axis}", says, f"a rotation about {axis}")(
-        lambda theta, about=about: about(-theta)
-    )
+    says = f"your rotation is about {axis}. It should be about z"
+    row.wrong(f"turns-about-{axis}", says)(about)
+    says = f"your rotation is about -{axis}. It should be about z"
+    row.wrong(f"turns-about-{axis}", says)(lambda theta, about=about: about(-theta))
 
 
 row.of_argument("theta", *OF_AN_ANGLE)

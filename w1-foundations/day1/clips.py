@@ -20,13 +20,15 @@ import numpy as np
 from PIL import Image
 
 from labkit.base import processes
-from labkit.figures import client, editor, portrait
+from labkit.figures import client, portrait
 from labkit.figures.clip import Frame
 from labkit.figures.scene import Camera, Scene
 from labkit.lesson.day import find_day
 from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT
+
+from . import editor
 
 RIGHT, WRONG = "make_T(Rz(q), np.zeros(3))", "make_T(Rz(-q), np.zeros(3))"
 TASK = "1.5"

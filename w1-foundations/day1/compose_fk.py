@@ -47,16 +47,16 @@ row = Row(
     held_out=[
         HeldOut(
             "path-ignored",
-            "Your pose is correct for the whole arm, but the function ignores path: "
-            "for the path to link4 it still returns the pose of the end effector.",
+            "Your pose is correct for the whole arm, but your function ignores `path`. "
+            "For the path to link4, it still returns the pose of the end effector.",
             on(PANDA, PATH[:5], count=2),
             mistaken=lambda model, q, path: by_mujoco(model, q),
         ),
         HeldOut(
             "path-counted",
-            "Your pose is correct for PATH and for its beginnings, but the function "
-            "only counts the pairs of path: for PATH[1:] it returns the pose of link7. "
-            "Take the names of the bodies and of the joints from the argument path.",
+            "Your pose is correct for `PATH` and its prefixes, but your function uses "
+            "only the number of pairs in `path`, so for `PATH[1:]` it returns the pose "
+            "of link7. Take the body and joint names from the argument `path`.",
             on(PANDA, PATH[1:], count=2),
             mistaken=lambda model, q, path: fk(model, q, PATH[: len(path)]),
         ),
@@ -79,12 +79,13 @@ row.wrong(ends.fingertip_for_the_end)
 
 def stops_early(row, k, end):
     """Take the chains that end at link k, with its joint's rotation or without."""
-    says = f"your chain stops at link{k}; it should end at {end}"
-    row.wrong("stops-early", says, f"the pose of link{k}")(
+    says = f"your chain stops at link{k}. It should end at {end}"
+    row.wrong("stops-early", says)(
         lambda model, q, path=PATH: fk(model, q, path[: k + 1])
     )
-    says = f"your chain stops at link{k} and omits the rotation of joint{k}"
-    row.wrong("stops-early", says, f"link{k} without that rotation")(
+    says = f"your chain stops at link{k} and omits the rotation of joint{k}. It should "
+    says += f"end at {end}"
+    row.wrong("stops-early", says)(
         lambda model, q, path=PATH: fk(model, q, path[:k]) @ link(model, path[k][0])
     )
 
@@ -98,10 +99,10 @@ for k in range(1, 8):
 
 @row.wrongs
 def _(model, q, path=PATH):
-    """home-whatever-q: the result does not depend on q, but is always the pose of the
-      ready configuration => that pose
-    ready-subtracted: the angles of the ready configuration are subtracted from q; each
-      joint rotates by its entry of q => the pose at q minus these angles
+    """home-whatever-q: your code does not use `q` and always returns the pose for the
+      ready configuration
+    ready-subtracted: your code subtracts the angles of the ready configuration from
+      `q`, but each joint should rotate by its entry in `q`
     """
     angles = {
         "home-whatever-q": READY_Q,
@@ -160,11 +161,10 @@ def _typed(formula, first=0):
 
 for formula in UNNORMALISED:
     rolled = lambda quat, formula=formula: formula(np.roll(quat, 1))  # noqa: E731
-    says, redone = NOT_NORMALISED
-    row.wrong("not-normalised", IN_LINKS + says, redone)(_typed(formula))
-    says, redone = XYZW_AND_NOT_NORMALISED
-    row.wrong("xyzw-and-not-normalised", IN_LINKS + says, redone)(_typed(rolled))
-    row.wrong("xyzw-and-not-normalised", IN_LINKS + says, redone)(_typed(rolled, 1))
+    row.wrong("not-normalised", IN_LINKS + NOT_NORMALISED)(_typed(formula))
+    for code in (_typed(rolled), _typed(rolled, 1)):
+        says = IN_LINKS + XYZW_AND_NOT_NORMALISED
+        row.wrong("xyzw-and-not-normalised", says, both=True)(code)
 
 row.reached_by("joint_T", "in each joint's transform, ")
 

@@ -34,33 +34,30 @@ ALL = [*ENDS.items(), ("fingertip-for-the-end", HANDS_TIP)]
 
 
 def elsewhere(model, q, path=PATH):
-    """hand-for-attachment-site: the result is the pose of `hand`, a body of another
-      model. This model ends in `attachment_site`; the two frames differ by a rotation
-      of 180 degrees about z => the pose of `hand`
-    finger-for-the-end: the result is the pose of a finger; the chain ends at the flange
-      => the pose of a finger
-    fingertip-for-the-end: the result is the pose between the fingertips (the tool
-      centre point); this Panda has no hand and ends at the flange => the pose 103.4 mm
-      further along z
-    stops-at-link7: your chain stops at link7; one more fixed factor leads from there to
-      the end effector => the pose of link7
-    flange-not-turned: the position is correct, but the flange's own rotation is missing
-      => the correct result without that rotation
-    flange-turned-backwards: the position is correct, but the flange's rotation has the
-      wrong sense => the correct result with that rotation reversed
-    flange-turned-by-45: the position is correct, but the flange is rotated by 45
-      degrees, which is not its rotation in the file => the correct result rotated by 45
-      degrees
-    flange-not-moved: the rotation is correct, but the flange's offset from link7 is
-      missing => the correct result without it
-    flange-twice: the factor from link7 to the end effector is applied twice => the
-      product with that factor twice
+    """hand-for-attachment-site: your code returns the pose of `hand`, a body in another
+      model. This model ends at `attachment_site`, and the two frames differ by a
+      rotation of 180 degrees about z
+    finger-for-the-end: your code returns the pose of a finger, but the chain ends at
+      the flange
+    fingertip-for-the-end: your code returns the pose of the tool centre point between
+      the fingertips, but this Panda has no hand and ends at the flange
+    stops-at-link7: your chain stops at link7, but one more fixed transform leads from
+      link7 to the end effector
+    flange-not-turned: your position is correct, but your code omits the flange's
+      rotation relative to link7
+    flange-turned-backwards: your position is correct, but your code rotates the flange
+      in the wrong direction
+    flange-turned-by-45: your position is correct, but your code rotates the flange by
+      45 degrees, which does not agree with the quaternion in the file
+    flange-not-moved: your rotation is correct, but your code omits the flange's offset
+      from link7
+    flange-twice: your code applies the transform from link7 to the end effector twice
     """
     T = fk(model, q, path)
     return {slug: T @ end for slug, end in ENDS.items()}
 
 
 def fingertip_for_the_end(model, q, path=PATH):
-    """the result is the pose between the fingertips (the tool centre point); this Panda
-    has no hand and ends at the flange => the pose 103.4 mm further along z"""
+    """your code returns the pose of the tool centre point between the fingertips, but
+    this Panda has no hand and ends at the flange"""
     return fk(model, q, path) @ HANDS_TIP

@@ -9,11 +9,10 @@ import mujoco
 import numpy as np
 
 from labkit.base.exchange import Path
-from labkit.inspector import common_tabs, words
+from labkit.inspector import common_tabs
+from labkit.inspector import declared as ui
 from labkit.inspector.arm import AGREES, END, Step
 from labkit.inspector.ghost import Ghost
-from labkit.inspector.page import Page
-from labkit.inspector.tab import Tab
 from robo47 import se3
 from robo47.checks import Array
 
@@ -28,8 +27,6 @@ LIBRARY = {
     "translations_both_orders": lambda T, E: ((T @ E)[:3, 3], (E @ T)[:3, 3]),
 }
 ENTRY = "in one entry"
-UNITS = {"make_T": ENTRY, "Rz": ENTRY, "link_T": ENTRY, "joint_T": ENTRY,
-         "translations_both_orders": "m"}  # fmt: skip
 BOTH, RIGHT, LEFT = "both", "right: T_world_ee @ T_extra", "left: T_extra @ T_world_ee"
 
 
@@ -52,125 +49,88 @@ GHOST = Ghost(
 class Chain(common_tabs.Chain):
     """The product of the student's own factors."""
 
-    def __init__(self, page: Page) -> None:
-        """Ask for every factor at every move."""
-        self.own = page.own(LIBRARY, units=UNITS)
-        super().__init__(page)
+    library = LIBRARY
+    functions = {"link_T": ENTRY, "joint_T": ENTRY}
 
-    def on_move(self, q: Array) -> None:
-        """Ask for the factors in the arm's present configuration."""
-        self.page.job(self.ask, lambda steps: self.show(steps, "yours"))
-
-    def ask(self) -> list[Step]:
-        """Return the chain's steps with the student's factors."""
-        arm = self.page.arm
-        *_, last = arm.chain.links
-        right = arm.steps()
+    def ask(self, fns, at) -> list[Step]:
+        """Return the chain's steps with the factors of `link_T` and `joint_T`."""
+        arm, right = self.page.arm, super().ask(fns, at)
         calls = []
         for step in right:
-            name = last.name.partition(":")[2] if step.link == END else step.link
-            body = arm.model.body(name)
+            last = arm.chain.links[-1].name.partition(":")[2]
+            body = arm.model.body(last if step.link == END else step.link)
             fixed = ("link_T", body.pos.copy(), body.quat.copy())
             calls.append(("joint_T", step.q) if step.joint else fixed)
-        steps = []
-        T = np.eye(4)
-        for step, given in zip(right, self.own.many(*calls), strict=True):
+        steps, T = [], np.eye(4)
+        for step, given in zip(right, fns.many(*calls), strict=True):
             end = step.link == END and not step.joint
             factor = given @ arm.chain.T_link_frame if end else given
             off = ~(np.abs(factor - step.factor) < AGREES)
-            steps.append(step._replace(
-                before=T, factor=factor, after=T @ factor, off=off
-            ))  # fmt: skip
+            made = {"before": T, "factor": factor, "after": T @ factor, "off": off}
+            steps.append(step._replace(**made))
             T = T @ factor
         return steps
 
-    def lost(self) -> None:
-        """Show no factors, and no way through them."""
-        self.product.content = ""
-        self.page.host.scene.trace(())
 
-
-class Order(Tab):
+class Order(ui.Declared):
     """T_extra on either side: the tool moves, or the whole arm moves."""
 
     title = "Order"
+    wide = False  # the two matrices above stay
+    library = LIBRARY
+    functions = {"make_T": ENTRY, "Rz": ENTRY, "translations_both_orders": "m"}
 
-    def __init__(self, page: Page) -> None:
-        """Start as the lab does: 45 degrees about z, 0.1 m along x."""
-        super().__init__(page)
-        self.side = BOTH
-        self.angle = np.pi / 4
-        self.x = 0.1
-        self.own = page.own(LIBRARY, units=UNITS)
-        page.choice("T_extra", [BOTH, RIGHT, LEFT], self.sets("side"))
-        page.slider("rotation about z", -np.pi, np.pi, self.angle, self.sets("angle"))
-        page.slider("translation along x", -0.3, 0.3, self.x, self.sets("x"), unit="m")
-        self.result = page.html()
-        self.arm = page.draw.ghost("purple")
-        self.right = page.draw.frame("T_world_ee @ T_extra")
-        self.left = page.draw.frame("T_extra @ T_world_ee")
-        self.lines = page.draw.lines(np.zeros((2, 2, 3)), "orange")
-        page.light(END, {END})
-        self.predicted = page.html()
-        page.legend({
-            "T_extra on the left moves the whole arm": "purple",
-            "from the hand to the positions that your function returns": "orange",
-        })  # fmt: skip
+    side = ui.choice("T_extra", [BOTH, RIGHT, LEFT])
+    angle = ui.slider("rotation about z", -np.pi, np.pi, np.pi / 4)
+    x = ui.slider("translation along x", -0.3, 0.3, 0.1, "m")
+    result = ui.panel.html()
+    arm = ui.yours.ghost("purple", legend="T_extra on the left moves the whole arm")
+    at_right = ui.yours.frame("T_world_ee @ T_extra")
+    at_left = ui.yours.frame("T_extra @ T_world_ee")
+    lines = ui.yours.lines(
+        ui.NOWHERE, "orange",
+        legend="from the hand to the positions that your function returns",
+    )  # fmt: skip
 
-    def on_move(self, q: Array) -> None:
-        """Ask for T_extra, and for where it takes the hand."""
-        self.page.job(lambda: self.ask(self.page.pose(END)), self.show)
+    def ask(self, fns, at):
+        """Return T_world_ee, T_extra, and both ends by `translations_both_orders`."""
+        T_world_ee = self.page.arm.poses_at(at.q)[END]
+        T_extra = fns.make_T(fns.Rz(at.angle), np.array([at.x, 0.0, 0.0]))
+        return T_world_ee, T_extra, fns.translations_both_orders(T_world_ee, T_extra)
 
-    def ask(self, T_world_ee: Array) -> tuple[Array, Array, tuple[Array, Array]]:
-        """Return T_world_ee, the student's T_extra, and both ends by their formula."""
-        R = self.own.Rz(self.angle)
-        T_extra = self.own.make_T(R, np.array([self.x, 0.0, 0.0]))
-        return (
-            T_world_ee,
-            T_extra,
-            self.own.translations_both_orders(T_world_ee, T_extra),
-        )
-
-    def show(self, found: tuple[Array, Array, tuple[Array, Array]]) -> None:
-        """Put T_extra on the right, and on the left of the whole arm."""
-        T_world_ee, T_extra, (p_right, p_left) = found
+    def show(self, yours, _) -> None:
+        T_world_ee, T_extra, ends = yours
         right, left = T_world_ee @ T_extra, T_extra @ T_world_ee
-        self.right.place(right)
-        self.left.place(left)
-        self.right.show(self.side != LEFT, chosen=self.side == RIGHT)
-        self.left.show(self.side != RIGHT, chosen=self.side == LEFT)
-        poses = self.page.arm.by_mujoco
-        moved = {name: T_extra @ poses[f"body:{name}"] for name in self.arm.bodies}
+        self.at_right.place(right)
+        self.at_left.place(left)
+        self.at_right.show(self.side != LEFT, chosen=self.side == RIGHT)
+        self.at_left.show(self.side != RIGHT, chosen=self.side == LEFT)
+        links = self.page.links(self.page.q)
+        moved = {name: T_extra @ T for name, T in links.items()}
         self.arm.pose({} if self.side == RIGHT else moved)
-        ends = {RIGHT: [p_right], LEFT: [p_left], BOTH: [p_right, p_left]}[self.side]
-        both = [[T_world_ee[:3, 3], end] for end in ends]
-        self.lines.points = np.array(both, np.float32)
-        apart = float(np.linalg.norm(right[:3, 3] - left[:3, 3]))
-        T, name = (left, "left") if self.side == LEFT else (right, "right")
-        says = {
-            RIGHT: "On the right: the tool moves along its own axes.",
-            LEFT: "On the left: the whole arm rotates and moves (purple).",
-            BOTH: f"The distance between the two positions is {apart:.4f} m.",
-        }
+        some = {RIGHT: ends[:1], LEFT: ends[1:], BOTH: ends}[self.side]
+        self.lines.points = np.array([[T_world_ee[:3, 3], end] for end in some])
+        name, T = ("left", left) if self.side == LEFT else ("right", right)
         self.page.matrix(self.result, f"T_extra on the {name}", T)
-        self.page.say(says[self.side])
-        off = [
-            np.linalg.norm(p_right - right[:3, 3]),
-            np.linalg.norm(p_left - left[:3, 3]),
-        ]
-        told = " and ".join(f"{1000 * mm:.1f} mm" for mm in off)
-        kind = "good" if max(off) < AGREES else "bad"
-        text = f"errors of your translations_both_orders: {told}, right and left"
-        self.predicted.content = words.line(text, "predicted", kind)
 
-    def lost(self) -> None:
-        """Show no T_extra."""
-        self.result.content = self.predicted.content = ""
-        self.page.say("")
-        self.right.show(False, chosen=False)
-        self.left.show(False, chosen=False)
-        self.arm.pose({})
-        self.lines.points = np.zeros((1, 2, 3), np.float32)
+    def says(self, yours, _):
+        T_world_ee, T_extra, ends = yours
+        both = (T_world_ee @ T_extra)[:3, 3], (T_extra @ T_world_ee)[:3, 3]
+        apart = float(np.linalg.norm(both[0] - both[1]))
+        yield (
+            {
+                RIGHT: "On the right: the tool moves along its own axes.",
+                LEFT: "On the left: the whole arm rotates and moves (purple).",
+                BOTH: f"The distance between the two positions is {apart:.4f} m.",
+            }[self.side],
+            None,
+        )
+        off = [1000 * np.linalg.norm(p - q) for p, q in zip(ends, both, strict=True)]
+        told = " and ".join(f"{mm:.1f} mm" for mm in off)
+        yield (
+            f"Errors of your translations_both_orders: {told}, right and left.",
+            "make_T Rz translations_both_orders",
+        )
 
 
 TABS = [common_tabs.Joints, Chain, Order]

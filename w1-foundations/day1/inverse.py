@@ -23,8 +23,9 @@ row = Row(
     held_out=[
         HeldOut(
             "general-inverse",
-            "Your numbers are correct, but they come from a matrix inverse. The task "
-            "asks for R and t alone: what is special about the columns of R?",
+            "Your result is correct, but your code uses a general matrix inverse. The "
+            "task asks for a result from R and t alone. What is special about the "
+            "columns of R?",
             _scaled,
             mistaken=np.linalg.inv,
             status="close",
@@ -42,23 +43,23 @@ def _(rng):
 
 @row.wrongs
 def _(T):
-    """unchanged: T is returned unchanged
-    T-transposed: the whole 4x4 matrix is transposed, which inverts R but moves the
-      translation to the last row => T transposed
-    t-only-negated: the rotation is correct, but the translation is -t. The inverse's
-      translation is expressed in the rotated frame, so -t has to be rotated first =>
-      the correct rotation with -t
-    t-turned-forwards: the rotation is correct, but -t is multiplied by R instead of the
-      inverse of R
-    R-kept: the translation is correct, but the rotation is still R => the correct
-      translation with R
-    R-kept-t-negated: the rotation is still R, and t is only negated, which inverts only
-      a pure translation => R with -t
-    R-kept-t-turned-forwards: R is not inverted, neither in the rotation nor in the
-      translation
-    all-signs: every entry is negated; the negative of a transform is not its inverse
-    minus-R: R and t are only negated; -R is a reflection (det R = -1), not the inverse
-      of R => the pose of -R and -t
+    """unchanged: your code returns T unchanged
+    T-transposed: your code transposes the whole 4x4 matrix. This inverts R but moves
+      the translation to the last row
+    t-only-negated: your rotation is correct, but your translation is -t. The
+      translation of the inverse is expressed in the rotated frame, so rotate -t into
+      that frame
+    t-turned-forwards: your rotation is correct, but your code multiplies -t by R.
+      Multiply it by the inverse of R
+    R-kept: your translation is correct, but your code does not invert R
+    R-kept-t-negated: your code keeps R and only negates t, which is correct only for a
+      pure translation
+    R-kept-t-turned-forwards: your code uses R instead of its inverse, both in the
+      rotation and in the translation
+    all-signs: your code negates every entry, but the negative of a transform is not its
+      inverse
+    minus-R: your code only negates R and t, but -R is a reflection (its determinant is
+      -1), not the inverse of R
     """
     R, t = split(T)
     return {
@@ -76,8 +77,8 @@ def _(T):
 
 @row.wrong
 def one_over_each_entry(T):
-    """every entry is replaced by its reciprocal; these reciprocals are not the inverse
-    of the matrix => 1 over each entry"""
+    """your code replaces every entry with its reciprocal, but the inverse of a matrix
+    does not consist of reciprocals"""
     with np.errstate(divide="ignore"):
         return 1.0 / T
 

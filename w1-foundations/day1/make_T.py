@@ -21,12 +21,12 @@ def _(rng):
 
 @row.wrongs(hidden={"type-of-R": "the lab's rotations hold no whole numbers alone"})
 def _(R, t):
-    """move-then-turn: the translation is multiplied by R; a pose rotates a point first
-      and then adds t
-    t-turned-back: the translation is multiplied by the transpose of R; t is already
+    """move-then-turn: your code multiplies t by R. A pose first rotates a point and
+      then adds t, so use t unchanged
+    t-turned-back: your code multiplies t by the transpose of R, but t is already
       expressed in the outer frame
-    type-of-R: the array has the data type of R: if R holds integers, such as
-      np.eye(3, dtype=int), the decimals of t are truncated
+    type-of-R: your array has the data type of R. If R contains integers, as in
+      `np.eye(3, dtype=int)`, the fractional parts of t are lost
     """
     whole = np.array_equal(R, np.round(R))
     return {

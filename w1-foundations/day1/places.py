@@ -8,6 +8,7 @@ from labkit.judge import Case, Finding, HeldOut, Mistake, Pose, Slip
 from labkit.judge.answers import difference, matches, rigid
 from labkit.judge.chain import Factor, first_wrong, one_place
 from labkit.judge.matrices import pose, rigid_inverse
+from labkit.judge.mistake import both_told
 from robo47 import se3
 from robo47.checks import Array
 
@@ -30,8 +31,8 @@ from .quat_to_R import UNNORMALISED
 ALIKE = [BACKWARDS, {"joints-left-out", "R-lost"}]
 TYPED_IN = HeldOut(
     "typed-in",
-    "Your pose is correct for this Panda, but not for one with longer, rotated links: "
-    "read every pos and quat, also those of link0, from the given model.",
+    "Your pose is correct for this Panda, but not for one with longer, rotated links. "
+    "Read every `pos` and `quat`, including the values of link0, from the given model.",
     on(OTHER, count=2),
     of_close=False,  # `flange` says more of a nearly right one
 )
@@ -39,8 +40,8 @@ NO_INDEX = Slip(
     r"inhomogeneous|only (length-1|0-dimensional) arrays|sequence|ambiguous",
     r"\.qposadr\b(?!\s*\[)",
     "qposadr-is-an-array",
-    "model.joint(name).qposadr is an array of one number, so q[...] of it is an array "
-    "too: use qposadr[0].",
+    "`model.joint(name).qposadr` is an array with one entry, so `q` indexed with it is "
+    "also an array. Use `qposadr[0]` as the index.",
 )  # fmt: skip
 
 
@@ -67,7 +68,8 @@ def measured(case: Case) -> tuple[str, ...]:
         Pose().apart(case.S[i], case.T[i])
         for i in (slice(1), slice(1, 2), slice(2, None))
     )
-    return (f"error at q = 0: {zero}; when ready: {ready}; elsewhere: up to {other}",)
+    known = f"error at q = 0: {zero}; in the ready configuration: {ready}"
+    return (f"{known}; elsewhere: up to {other}",)
 
 
 def flange(case: Case) -> Finding | None:
@@ -79,13 +81,15 @@ def flange(case: Case) -> Finding | None:
         again = case.T @ pose(right @ R_flange, np.zeros(3))
         return bool(difference(case.S, again).max() < 0.01 * off)
 
-    says = f"Close, but not equal: off by {off:.1e}."
+    says = f"Your result is close, but it is off by {off:.1e}."
     if any(ends_in(make(FLANGE_QUAT)) for make in UNNORMALISED):
         says += " The flange's quaternion in the file is rounded, so its norm is not "
-        return Finding("flange-not-normalised", f"{says}exactly 1: normalise it.")
+        says += "exactly 1. Normalise this quaternion."
+        return Finding("flange-not-normalised", says)
     if ends_in(se3.Rz(0.75 * np.pi)):
-        says += " You rotate the flange by exactly 135 degrees; in the file its "
-        return Finding("flange-turned-exactly", f"{says}quaternion has seven digits.")
+        says += " Your code rotates the flange by exactly 135 degrees, but the file "
+        says += "gives its quaternion to seven digits. Use this quaternion."
+        return Finding("flange-turned-exactly", says)
     return None
 
 
@@ -116,9 +120,12 @@ def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
     body = model.body(name)
     pos = body.pos[None]
     quat = as_written(body.quat)[None]
-    missing = f"The transform of {name} is missing in your product"
+    missing = f"Your product omits the transform of {name}"
     yield Finding("link-skipped", missing), np.eye(4)
-    yield Finding("link-twice", f"The transform of {name} is applied twice"), L @ L
+    yield (
+        Finding("link-twice", f"Your product applies the transform of {name} twice"),
+        L @ L,
+    )
     for mistake in link_T.row.ask.named:
         says = f"In the transform of {name} alone, {mistake.says}"
         yield Finding(mistake.slug, says), mistake.redo(pos, quat)
@@ -126,7 +133,9 @@ def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
 
 def _other_joints(model, q: Array, joint: str) -> Iterator[tuple[Finding, Array]]:
     yield (
-        Finding("joint-skipped", f"{joint} does not rotate: its angle has no effect"),
+        Finding(
+            "joint-skipped", f"{joint} does not rotate, because its angle has no effect"
+        ),
         (np.eye(4)),
     )
     for _, other in PATH[1:-1]:
@@ -186,6 +195,7 @@ def _wrong_end(first: Mistake, case: Case, some: slice) -> Finding | None:
 def _both(first: Finding, second: Finding, case: Case) -> Finding:
     return Finding(
         f"{first.slug}+{second.slug}",
-        f"Two things at once: {first.message}; {second.message}. "
-        f"{Pose().largest_error(case.S, case.T)} Without both mistakes, it is 0.",
+        f"{both_told(first.message, second.message)} "
+        f"{Pose().largest_error(case.S, case.T)} Without both mistakes, the error is "
+        f"0.",
     )

@@ -14,17 +14,16 @@ from .panda_chain import PATH, fk, link, product, steps, turn
 
 
 def in_order(model, q, path=PATH):
-    """joint-before-link: each joint's transform comes before the transform of its link.
-      It should come after it, because the link's offset leads to the joint => the
-      product with each pair swapped
-    chain-reversed: the product is in the reverse order; each further factor belongs on
-      the right of the product so far => the product in reverse order
-    links-on-the-left: the links' factors are multiplied on the left and the joints' on
-      the right; both belong on the right => the product in that order
-    joints-on-the-left: the joints' factors are multiplied on the left and the links' on
-      the right; both belong on the right => the product in that order
-    multiplied-by-entries: the factors are multiplied entry by entry; use the matrix
-      product => the product by entries
+    """joint-before-link: your code applies each joint's transform before the link's
+      transform. Apply the link's transform first, because its offset leads to the joint
+    chain-reversed: your product is in the reverse order. Multiply each new transform on
+      the right
+    links-on-the-left: your code multiplies the link transforms on the left and the
+      joint transforms on the right. Multiply both on the right
+    joints-on-the-left: your code multiplies the joint transforms on the left and the
+      link transforms on the right. Multiply both on the right
+    multiplied-by-entries: your code multiplies the transforms entry by entry. Use the
+      matrix product
     """
     pairs = steps(model, q, path)
     links, joints = zip(*pairs, strict=True)
@@ -38,8 +37,7 @@ def in_order(model, q, path=PATH):
 
 
 def chain_reversed(model, q, path=PATH):
-    """the product is in the reverse order; each further factor belongs on the right of
-    the product so far => the product in reverse order"""
+    """your product is in the reverse order. Multiply each new transform on the right"""
     return product(L @ J for L, J in steps(model, q, path[::-1]))
 
 
@@ -47,24 +45,22 @@ def chain_reversed(model, q, path=PATH):
 
 
 def on_each_other(model, q, path=PATH):
-    """last-step-in-the-world: the offset of attachment is added along the world's axes;
-      this offset is expressed in the frame of the previous body => the correct result
-      with that offset in the world frame
-    last-step-on-the-left: the factor of attachment is multiplied on the left, so it
-      moves the whole arm; multiply it on the right => the product with that factor on
-      the left
-    local-taken-for-world: the pos and quat of attachment in the file are used as its
-      pose in the world; pos and quat are relative to the parent => the pose in the file
-    offsets-summed: the rotation is correct, but the offsets are added as they are in
-      the file. Each offset is expressed in the rotated frame of its parent => the
-      correct rotation with a plain sum
-    point-with-w-0: the rotation is correct, but attachment's offset is only rotated and
-      the translation before it is lost: a point needs 1, not 0, as its fourth entry =>
-      the correct result with that 0
-    inertial-frames: ipos and iquat are used, which give the frame of a body's inertia;
-      pos and quat give the frame of the body => the product of those frames
-    inertial-turns: iquat is used, the orientation of a body's inertia; quat is the
-      orientation of the body => the product with iquat
+    """last-step-in-the-world: your code adds the offset of `attachment` along the world
+      axes, but this offset is expressed in the frame of the previous body
+    last-step-on-the-left: your code multiplies the transform of `attachment` on the
+      left, which moves the whole arm. Multiply it on the right
+    local-taken-for-world: your code uses the `pos` and `quat` of `attachment` as its
+      pose in the world, but both are relative to the parent body
+    offsets-summed: your rotation is correct, but your code adds the offsets from the
+      file without rotating them. Each offset is expressed in the rotated frame of its
+      parent
+    point-with-w-0: your rotation is correct, but your code only rotates the offset of
+      `attachment` and omits the translation before it. A point needs 1, not 0, as its
+      fourth coordinate
+    inertial-frames: your code uses `ipos` and `iquat`, which describe a body's inertial
+      frame. Use `pos` and `quat`, which describe the body frame
+    inertial-turns: your code uses `iquat`, the orientation of a body's inertial frame.
+      Use `quat`, the orientation of the body frame
     """
     before = fk(model, q, path[:-1])
     last = link(model, path[-1][0])
@@ -98,8 +94,8 @@ def inertial(model, q, path, place):
 
 
 def offset_turned_too_late(model, q, path=PATH):
-    """the rotation is correct, but each offset is rotated by the joint that comes after
-    it => the correct result with R updated first"""
+    """your rotation is correct, but your code updates the rotation before it adds the
+    link's offset. Add the offset first, rotated by the previous rotation"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         R = R @ L[:3, :3] @ J[:3, :3]
@@ -108,8 +104,8 @@ def offset_turned_too_late(model, q, path=PATH):
 
 
 def turns_in_reverse(model, q, path=PATH):
-    """the rotations are multiplied in the wrong order; each new one belongs on the
-    right => the correct result with each rotation on the left"""
+    """your code multiplies the rotations in the wrong order. Multiply each new rotation
+    on the right"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         t = t + R @ L[:3, 3]

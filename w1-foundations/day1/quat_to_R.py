@@ -50,28 +50,27 @@ def by_squares(quat):
 
 UNNORMALISED = (by_ones, by_squares)  # the usual formulas: the same of a unit one
 NOT_NORMALISED = (
-    "the quaternion is not normalised; only a unit quaternion represents a rotation, "
-    "and (1, 1, 0, 0) has norm 1.41",
-    "the correct formula without normalisation",
+    "your code does not normalise the quaternion. Only a unit quaternion represents a "
+    "rotation, but (1, 1, 0, 0), for example, has norm 1.41"
 )
 XYZW_AND_NOT_NORMALISED = (
-    "the quaternion is read as (x, y, z, w), although w comes first, and it is not "
-    "normalised",
-    "the formula with both mistakes",
+    "your code reads the quaternion as (x, y, z, w), although w comes first, and does "
+    "not normalise the quaternion"
 )
 
 
 @row.wrongs(hidden={"short-ones-kept": "no quaternion there is short"})
 def _(quat):
-    """wxyz-read-as-xyzw: the quaternion is read as (x, y, z, w); in MuJoCo's files w
-      comes first => the correct formula with w read last
-    xyzw-rolled-wrongly: the components are shifted in the wrong direction: they are
-      read as (y, z, w, x)
-    half-angle: the rotation is by half the angle; w is the cosine of half the angle
-    short-ones-kept: the quaternion is normalised only if its norm is above 1; a shorter
-      one has to be normalised as well
-    factor-two-missing: the factor 2 in front of the products is missing => the correct
-      formula without the 2
+    """wxyz-read-as-xyzw: your code reads the quaternion as (x, y, z, w), but MuJoCo
+      uses the order (w, x, y, z)
+    xyzw-rolled-wrongly: your code shifts the components in the wrong direction, so it
+      reads the quaternion as (y, z, w, x). MuJoCo uses the order (w, x, y, z)
+    half-angle: your code rotates by half the angle. The component w is the cosine of
+      half the angle, not of the angle
+    short-ones-kept: your code normalises the quaternion only if its norm is above 1.
+      Also normalise a quaternion with a smaller norm
+    factor-two-missing: your code omits the factor 2 in front of the products of
+      components
     """
     unturned = np.array([1.0, 0.0, 0.0, 0.0])
     read = {
@@ -87,8 +86,8 @@ def _(quat):
 
 
 for formula in UNNORMALISED:
-    row.wrong("not-normalised", *NOT_NORMALISED)(formula)
-    row.wrong("xyzw-and-not-normalised", *XYZW_AND_NOT_NORMALISED)(
+    row.wrong("not-normalised", NOT_NORMALISED)(formula)
+    row.wrong("xyzw-and-not-normalised", XYZW_AND_NOT_NORMALISED, both=True)(
         lambda quat, formula=formula: formula(np.roll(quat, 1))
     )
 

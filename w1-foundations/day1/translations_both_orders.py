@@ -48,8 +48,8 @@ row = Row(
     held_out=[
         HeldOut(
             "by-4x4-products",
-            "Your numbers are correct, but they come from 4x4 products. The docstring "
-            "asks for R and t alone: which of them acts on which?",
+            "Your result is correct, but your code multiplies 4x4 matrices. The "
+            "docstring asks for a result from R and t alone. Which R acts on which t?",
             _odd_bottom_rows,
             mistaken=by_4x4,
             status="close",
@@ -60,26 +60,26 @@ row.inputs(_two_poses)
 
 # What goes wrong in one prediction, or in both.
 HALVES = {
-    "only-summed": "the two translations are only added; the left factor also rotates "
-    "the translation of the right factor",
-    "left-translation-lost": "the translation of the left factor is not added",
-    "right-translation-lost": "the translation of the right factor is missing",
-    "turned-backwards": "the right factor's translation is multiplied by the transpose "
-    "of R; multiply it by R itself",
-    "wrong-vector-turned": "the left factor's own translation is rotated instead of "
-    "the right factor's",
-    "wrong-rotation": "the right factor's translation is rotated by its own R; rotate "
-    "it by the left factor's R",
-    "both-turned": "the translations of both factors are rotated; do not rotate the "
-    "translation of the left factor",
-    "subtracted": "one translation is subtracted; add the two",
-    "summed-by-columns": "R and the right factor's translation are multiplied entry by "
-    "entry and summed (R * t); use R @ t",
-    "summed-by-entries": "R * t multiplies entry by entry; use R @ t",
-    "diagonal-only": "only the diagonal of R acts on the translation; R @ t uses whole "
-    "rows",
-    "entries-of-4x4": "the two 4x4 matrices are multiplied entry by entry (A * B); use "
-    "the matrix product",
+    "only-summed": "your code only adds the two translations, but the left factor also "
+    "rotates the translation of the right factor",
+    "left-translation-lost": "your code omits the translation of the left factor",
+    "right-translation-lost": "your code omits the translation of the right factor",
+    "turned-backwards": "your code multiplies the right factor's translation by the "
+    "transpose of R. Multiply it by R itself",
+    "wrong-vector-turned": "your code rotates the left factor's own translation "
+    "instead of the right factor's translation",
+    "wrong-rotation": "your code rotates the right factor's translation by its own R. "
+    "Rotate it by the left factor's R",
+    "both-turned": "your code rotates the translations of both factors. Do not rotate "
+    "the translation of the left factor",
+    "subtracted": "your code subtracts the left factor's translation. Add it",
+    "summed-by-columns": "your code multiplies R and the right factor's translation "
+    "entry by entry (R * t) and sums the columns. Use R @ t",
+    "summed-by-entries": "your expression R * t multiplies entry by entry. Use R @ t",
+    "diagonal-only": "your code multiplies the translation only by the diagonal of R. "
+    "Use R @ t, which uses all entries of R",
+    "entries-of-4x4": "your code multiplies the two 4x4 matrices entry by entry "
+    "(A * B). Use the matrix product",
 }
 
 
@@ -115,11 +115,11 @@ def _other_order(R_a, t_a, R_b, t_b):
 
 
 for which, two in (("first", (_other_order, right)), ("second", (right, _other_order))):
-    says = f"the {which} translation is computed for the other order of the factors"
+    says = f"your code computes the {which} translation with the two factors swapped"
     row.wrong("same-order-twice", says)(both(*two))
 row.wrong(
     "orders-swapped",
-    "the two translations are swapped: the first belongs to T_world_ee @ T_extra",
+    "your two translations are swapped. The first belongs to T_world_ee @ T_extra",
 )(both(_other_order))
 
 

@@ -21,16 +21,18 @@ def _(rng):
 
 @row.wrongs
 def _(T):
-    """block-top-right: [p] R is in the upper right block, as for wrenches and for
-      twists (v; omega); in this course, omega comes first
-    no-lever-arm: the lower left block is 0; v depends on omega if the origins differ =>
-      the correct result without that block
-    on-both-sides: [p] R is in both off-diagonal blocks; omega does not depend on the
-      origin => the correct result with it top right as well
-    last-block-zero: the lower blocks are [p] and 0; they should be [p] R and R => the
-      correct result with those blocks
-    R-turned-back: R is transposed in every block => the correct result with R^T
-    transposed: the matrix is transposed; the transpose maps wrenches => its transpose
+    """block-top-right: your block [p] R is in the upper right, as for wrenches and for
+      twists (v; omega). In this course omega comes first, so the block belongs in the
+      lower left
+    no-lever-arm: your lower left block is 0, but v depends on omega if the origins of
+      the two frames differ
+    on-both-sides: both of your off-diagonal blocks are [p] R, but omega does not depend
+      on v, so the upper right block should be 0
+    last-block-zero: your lower blocks are [p] and 0. They should be [p] R and R,
+      respectively
+    R-turned-back: your code transposes R in every block. Use R itself
+    transposed: your code returns the transpose of the adjoint, which maps wrenches
+      instead of twists
     """
     R = T[:3, :3]
     p = T[:3, 3]
@@ -49,7 +51,7 @@ def _(T):
 
 
 # Without the lever arm's sign.
-row.reached_by("skew", "in [p], ", but=["p-cross-w"], called={"w_": "p_"})
+row.reached_by("skew", "in the matrix [p], ", but=["p-cross-w"], called={"w_": "p_"})
 
 
 @row.right  # Column by column, each lever arm a cross product.

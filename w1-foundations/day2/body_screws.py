@@ -20,18 +20,19 @@ def _(rng):
 
 @row.wrongs
 def _(screws, M):
-    """adjoint-of-M: the adjoint of M is used; M maps end-effector coordinates to the
-      world, and the screws need the inverse => Ad(M) S
-    from-the-right: the adjoint is correct, but it multiplies the screws as rows; the
-      adjoint acts on columns => S Ad(M^-1)
-    unchanged: the screws are returned unchanged, still expressed in the world frame
-    transposed-for-inverse: Ad(M) is transposed, but its inverse is not its transpose.
-      The same result follows if [p] R is in the upper right block of the adjoint =>
-      Ad(M)^T S
-    no-lever-arm: both halves are only rotated: the lower left block of the adjoint is 0
-      (is M.T used as the inverse of M?) => the correct result without that block
-    t-only-negated: in the inverse of M, the translation is -t; it should be expressed
-      in the end-effector frame => Ad S with t negated
+    """adjoint-of-M: your code uses the adjoint of M, which maps twists from the
+      end-effector frame to the world frame. Use the adjoint of the inverse of M
+    from-the-right: your adjoint is correct, but your code computes screws @ Ad. The
+      adjoint acts on column vectors, and each screw is a row
+    unchanged: your code returns the screws unchanged, still expressed in the world
+      frame
+    transposed-for-inverse: your code transposes Ad(M), but the inverse of an adjoint is
+      not its transpose. An adjoint with [p] R in the upper right block gives the same
+      result
+    no-lever-arm: your code only rotates the two halves of each screw, because the lower
+      left block of your adjoint is 0. Does your code use M.T as the inverse of M?
+    t-only-negated: in the inverse of M, your translation is -t. Rotate -t into the
+      end-effector frame
     """
     R = M[:3, :3]
     t = M[:3, 3]

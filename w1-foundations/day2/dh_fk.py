@@ -41,23 +41,23 @@ ONE_TABLE = "the lab has one table"
 
 @row.wrongs(hidden={"flange-typed-in": ONE_TABLE, "table-not-used": ONE_TABLE})
 def _(table, q):
-    """flange-missing: the eighth row is missing: the result is the pose of link7, not
-      of the flange => the product of seven rows
-    flange-turned: the eighth row is rotated by the last joint's angle; the flange does
-      not rotate => the product with q[6] twice
-    theta-one-row-late: the angles are one row late: the first row belongs to joint1, so
-      its angle is q[0]
-    theta-one-row-early: the angles are one row early: the first row belongs to joint1,
-      so its angle is q[0] => the product with q[1] first
-    product-reversed: the links are in the reverse order; the one nearest to the base
-      belongs on the left => the product in reverse order
-    multiplied-by-entries: the links are multiplied entry by entry; use the matrix
-      product
-    last-link-only: only the last row has an effect: the loop overwrites the product
-    flange-typed-in: the eighth row is always Franka's; use the last row of the argument
-      => the product with Franka's eighth row
-    table-not-used: the argument table is not used, so the result is correct for
-      Franka's table only => the product of Franka's own rows
+    """flange-missing: your product lacks the eighth row, so your code returns the pose
+      of link7 instead of the flange pose
+    flange-turned: your code rotates the eighth row by the last joint's angle, but the
+      flange does not rotate relative to link7
+    theta-one-row-late: your code uses each angle one row too late. The first row
+      belongs to joint1, so its angle is q[0]
+    theta-one-row-early: your code uses each angle one row too early. The first row
+      belongs to joint1, so its angle is q[0]
+    product-reversed: your matrices are in the reverse order. The matrix of the link
+      nearest to the base belongs on the left
+    multiplied-by-entries: your code multiplies the link matrices entry by entry. Use
+      the matrix product
+    last-link-only: your loop overwrites the product, so only the last row has an effect
+    flange-typed-in: your code always uses Franka's eighth row. Use the last row of the
+      argument `table`
+    table-not-used: your code does not use the argument `table`, so the result is
+      correct only for Franka's table
     """
     theta = [*q, 0.0]
     return {
@@ -79,9 +79,8 @@ row.of_argument("q", LEFT_OUT)
 for by in (1, -1):
     row.wrong(
         "alpha-of-the-neighbour",
-        "each row uses the alpha of its neighbour. Tables of the standard convention "
-        "have alpha one row earlier, but this table does not",
-        "the product with that column shifted",
+        "each row in your code uses the alpha of a neighbouring row. Tables in the "
+        "standard convention list alpha one row earlier, but this table does not",
     )(lambda table, q, by=by: dh_fk(np.c_[np.roll(table[:, 0], by), table[:, 1:]], q))
 for names, order in (
     ("a, alpha, d", [1, 0, 2]),
@@ -92,8 +91,7 @@ for names, order in (
 ):
     row.wrong(
         "columns-mixed-up",
-        f"the columns are read as ({names}); the order is (alpha, a, d)",
-        "the product with the columns read so",
+        f"your code reads the columns as ({names}). The order is (alpha, a, d)",
     )(lambda table, q, order=order: dh_fk(table[:, order], q))
 row.reached_by("dh_link", "in every row, ", but=["theta-forgotten"])
 

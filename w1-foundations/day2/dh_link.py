@@ -42,14 +42,15 @@ def in_order(order, alpha, a, d, theta):
 
 @row.wrongs
 def _(alpha, a, d, theta):
-    """standard-formula: the matrix follows the standard convention, Rz Tz Tx Rx;
-      Franka's table follows Craig's convention, which rotates about x first => the
-      matrix of the standard convention
-    a-after-theta: the rotation is correct, but the translation by a comes after the
-      rotation about z; it comes before it => the correct result with that order
-    d-along-the-old-z: the rotation is correct, but the translation by d comes before
-      the rotation about x; it comes after it => the correct result with that order
-    order-of-moves: the four factors are correct, but their order is not
+    """standard-formula: your matrix follows the standard convention, Rz Tz Tx Rx, but
+      Franka's table follows Craig's convention, which rotates about x first
+    a-after-theta: your rotation is correct, but your translation by a comes after the
+      rotation about z. The translation by a should come before this rotation
+    d-along-the-old-z: your rotation is correct, but your translation by d comes before
+      the rotation about x. The translation by d should come after this rotation
+    order-of-moves: your four factors are correct, but their order is wrong. The
+      translation by a belongs next to the rotation about x, and the translation by d
+      next to the rotation about z
     """
     orders = {
         "standard-formula": "zZXx",
@@ -65,19 +66,18 @@ def _(alpha, a, d, theta):
 for order in ("zxXZ", "XzxZ", "XzZx"):
     row.wrong(
         "order-of-moves",
-        "the rotation about z comes before the rotation about x; alpha comes first",
-        "the product in that order",
+        "your rotation about z comes before the rotation about x. The rotation about x "
+        "by alpha should come first",
     )(partial(in_order, order))
 
 
 @row.wrongs
 def _(alpha, a, d, theta):
-    """both-turns-backwards: both rotations have the wrong sense => the correct result
-      with -alpha and -theta
-    radians-taken-for-degrees: both angles are converted from degrees, but they are
-      already in radians => the correct result with smaller angles
-    alpha-forgotten: alpha has no effect => the correct result with alpha = 0
-    theta-forgotten: theta has no effect => the correct result with theta = 0
+    """both-turns-backwards: both of your rotations are in the wrong direction
+    radians-taken-for-degrees: your code converts both angles from degrees to radians,
+      but they are already in radians
+    alpha-forgotten: the argument `alpha` has no effect in your code
+    theta-forgotten: the argument `theta` has no effect in your code
     """
     instead = {
         "both-turns-backwards": (-alpha, a, d, -theta),

@@ -43,31 +43,32 @@ def rodrigues(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """turns-backwards: the rotation has the wrong sense: the term with the sine has the
-      wrong sign => the rotation by -theta
-    minus-square: the term with K K is subtracted, so the matrix is not orthonormal
-    square-missing: the term with K K is missing; I + sin(theta) K is a rotation to
-      first order only
-    sine-term-missing: the term with K is missing, so the rotations by theta and -theta
-      are equal => the formula without it
-    identity-missing: the identity is missing; a rotation by 0 is the identity => the
-      formula without it
-    cosine-for-one-minus-cosine: the factor of K K is the cosine; at theta = 0 it should
-      be 0 => the formula with cos
-    one-minus-sine: the factor of K K is 1 minus the sine; at theta = 0 it should be 0
-      => the formula with 1 - sin
-    sin-and-cos-swapped: the sine and the cosine are swapped: at theta = 0 the matrix is
-      not the identity => the formula with the two swapped
-    coefficients-swapped: the two factors are swapped: the sine belongs to K, and 1 -
-      cos belongs to K K => the formula with the two swapped
-    first-order-only: the series ends after I + theta K, which is accurate for small
-      angles only => I + theta K
-    second-order-only: the series ends after the term with theta squared; it has
-      infinitely many terms => the series up to that term
-    cosine-before-identity: the identity has the factor cos; this factor belongs to the
-      form with axis axis^T, not to the form with K K => the formula with cos I
-    half-angle-not-squared: the factor of K K is 2 sin(theta / 2); 1 - cos is twice the
-      square of that sine => the formula with 2 sin(theta / 2)
+    """turns-backwards: your rotation is in the wrong direction, because the sine term
+      has the wrong sign
+    minus-square: your code subtracts the K K term, so the matrix is not orthonormal.
+      Add this term
+    square-missing: your code omits the K K term. Without this term, I + sin(theta) K is
+      a rotation only to first order
+    sine-term-missing: your code omits the K term, so the rotations by theta and -theta
+      are equal
+    identity-missing: your code omits the identity, but a rotation by 0 should be the
+      identity
+    cosine-for-one-minus-cosine: your factor of K K is the cosine, but this factor
+      should be 0 at theta = 0
+    one-minus-sine: your factor of K K is 1 minus the sine, but this factor should be 0
+      at theta = 0
+    sin-and-cos-swapped: your code swaps the sine and the cosine, so the matrix is not
+      the identity at theta = 0
+    coefficients-swapped: your code swaps the factors of K and K K. The sine belongs to
+      K, and 1 - cos belongs to K K
+    first-order-only: your series ends after I + theta K, which is accurate only for
+      small angles
+    second-order-only: your series ends after the theta^2 term, but the series has
+      infinitely many terms
+    cosine-before-identity: your code multiplies the identity by the cosine. This factor
+      belongs to the form with axis axis^T, not to the form with K K
+    half-angle-not-squared: your factor of K K is 2 sin(theta / 2). It should be 1 -
+      cos, which equals 2 sin(theta / 2)^2
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -90,15 +91,15 @@ def _(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """exp-by-entries: np.exp acts on each entry; the exponential of a matrix is a
-      series of matrix products => np.exp of [axis] theta
-    bracket-of-a-dyad: the last term is (1 - cos) axis axis^T; with this term the
-      identity needs the factor cos => the formula with that term
-    dyad-without-factor: the factor 1 - cos of axis axis^T is missing, so at theta = 0
-      the matrix is not the identity => cos I + sin K + axis axis^T
-    dyad-missing: the term (1 - cos) axis axis^T is missing, so the axis itself does not
-      stay where it is => cos I + sin K
-    always-about-z: the rotation is about z for every axis => Rz(theta)
+    """exp-by-entries: your code uses np.exp, which acts on each entry, but the matrix
+      exponential is a series of matrix products
+    bracket-of-a-dyad: your last term is (1 - cos) axis axis^T. With this term, the
+      identity needs the factor cos
+    dyad-without-factor: your code omits the factor 1 - cos in front of axis axis^T, so
+      the matrix is not the identity at theta = 0
+    dyad-missing: your code omits the term (1 - cos) axis axis^T, so the rotation moves
+      its own axis
+    always-about-z: your code rotates about z for every axis. Use the argument `axis`
     """
     K = skew(axis)
     dyad = np.outer(axis, axis)
@@ -128,7 +129,9 @@ def _(axis, theta):
 row.of_argument("theta", *OF_AN_ANGLE)
 
 # Without the sign of the angle.
-row.reached_by("skew", "in [axis], ", but=["p-cross-w"], called={"w_": "axis_"})
+row.reached_by(
+    "skew", "in the matrix [axis], ", but=["p-cross-w"], called={"w_": "axis_"}
+)
 
 
 @row.close("rounded-somewhere")  # Public code: below a millionth there is no turn.

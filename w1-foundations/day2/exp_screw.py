@@ -70,13 +70,13 @@ def travelled(S, theta, one, first, second):
 
 @row.wrongs(hidden={"theta-wrapped": "the lab's angles are between -pi and pi"})
 def _(S, theta):
-    """twist-order: the halves are read as (v; omega); omega comes first
-    hinge-at-the-origin-forgotten: a screw with v = 0 causes no motion; such a screw is
-      a rotation about a line through the origin => the correct result with I where v is
-      0
-    turns-backwards: the motion has the wrong sense, as for -theta => that motion
-    theta-wrapped: theta is wrapped to the range from -pi to pi; the translation along
-      the axis is not periodic => the motion by that angle
+    """twist-order: your code reads the halves as (v; omega), but omega comes first
+    hinge-at-the-origin-forgotten: a screw with v = 0 causes no motion in your code, but
+      such a screw represents a rotation about a line through the origin
+    turns-backwards: your motion is in the wrong direction. It equals the motion for
+      -theta
+    theta-wrapped: your code wraps theta to [-pi, pi], but the translation along the
+      axis is not periodic
     """
     motions = {
         "twist-order": (np.roll(S, 3), theta),
@@ -89,26 +89,22 @@ def _(S, theta):
 
 @row.wrongs
 def _(S, theta):
-    """identity-for-theta: the rotation is correct, but the first term of the
-      translation is v; at theta = 0 it should be 0 => the correct result with I instead
-      of theta I
-    sine-for-theta: the rotation is correct, but the first term of the translation is
-      sin(theta) v; a pure translation is by theta v => the correct result with sin I
-    exp-coefficients-swapped: the rotation is correct, but the two factors of the
-      translation are swapped => the correct result with the two swapped
-    as-in-the-rotation: the rotation is correct, but the translation has the factors of
-      the rotation, sin and 1 - cos; it needs their integrals => the correct rotation
-      with those factors
-    travel-sign-of-K: the rotation is correct, but the term with K of the translation
-      has the wrong sign => the correct result with that sign
-    travel-sign-of-KK: the rotation is correct, but the term with K K of the translation
-      has the wrong sign => the correct result with that sign
-    travel-without-K: the rotation is correct, but the term with K of the translation is
-      missing
-    travel-without-KK: the rotation is correct, but the term with K K of the translation
-      is missing
-    travel-K-for-KK: the rotation is correct, but the last term of the translation has K
-      instead of K K => the correct result with K there
+    """identity-for-theta: your rotation is correct, but the first term of your
+      translation is v. The translation should be 0 at theta = 0
+    sine-for-theta: your rotation is correct, but the first term of your translation is
+      sin(theta) v. For a pure translation it should be theta v
+    exp-coefficients-swapped: your rotation is correct, but in the translation your code
+      swaps the factors of K and K K
+    as-in-the-rotation: your rotation is correct, but your translation has the factors
+      of the rotation, sin and 1 - cos. It needs the integrals of these factors
+    travel-sign-of-K: your rotation is correct, but the K term of your translation has
+      the wrong sign
+    travel-sign-of-KK: your rotation is correct, but the K K term of your translation
+      has the wrong sign
+    travel-without-K: your rotation is correct, but your translation lacks the K term
+    travel-without-KK: your rotation is correct, but your translation lacks the K K term
+    travel-K-for-KK: your rotation is correct, but the last term of your translation
+      contains K instead of K K
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -129,33 +125,31 @@ def _(S, theta):
 
 @row.wrongs
 def _(S, theta):
-    """R-times-v: the rotation is correct, but the translation is R v; it should be the
-      integral of the rotated velocity => the correct rotation with R v
-    R-times-theta-v: the rotation is correct, but the translation is theta R v. The
+    """R-times-v: your rotation is correct, but your translation is R v. It should be
+      the integral of the rotated velocity
+    R-times-theta-v: your rotation is correct, but your translation is theta R v. The
       velocity rotates during the motion, so it has to be integrated
-    travel-on-a-line: the rotation is correct, but the translation is theta v, a
-      straight line; the path of a screw motion is curved => the correct rotation with
-      theta v
-    travel-is-v: the rotation is correct, but the translation is v for every theta
-    travel-turned: the rotation is correct, but the translation is multiplied by R as
-      well => the correct rotation with R t
-    travel-over-theta: the rotation is correct, but the translation is divided by theta
-      => the correct rotation with t / theta
-    moment-used-as-point: v is used as a point on the axis, but v is the velocity of the
-      origin => the rotation about the line through v
-    pitch-forgotten: if omega is not 0, the part of the translation along the axis is
-      missing => the correct result without that part
-    pitch-without-theta: if omega is not 0, the part of the translation along the axis
-      is not multiplied by theta => the correct result with that part constant
-    hinges-only: for every screw, the part of the translation along the axis is missing
-      => the correct result without that part
-    sign-of-the-point: the rotation is correct, but the point on the axis has the wrong
-      sign: the point is omega x v, multiplied by I - R => the correct result with that
-      sign
-    slide-forgotten: a screw with omega = 0 causes no motion; such a screw is a pure
-      translation => the correct result with I for omega = 0
-    slide-without-theta: a screw with omega = 0 translates by v; it should translate by
-      theta v => the correct result with v for omega = 0
+    travel-on-a-line: your rotation is correct, but your translation is theta v, along a
+      straight line, while the path of a screw motion is curved
+    travel-is-v: your rotation is correct, but your translation is v for every theta. It
+      should be 0 at theta = 0
+    travel-turned: your rotation is correct, but your code also multiplies the
+      translation by R
+    travel-over-theta: your rotation is correct, but your code divides the translation
+      by theta
+    moment-used-as-point: your code uses v as a point on the axis, but v is the velocity
+      of the point at the origin
+    pitch-forgotten: if omega is not 0, your code omits the translation along the axis
+    pitch-without-theta: if omega is not 0, your code does not multiply the translation
+      along the axis by theta
+    hinges-only: your code omits the translation along the axis for every screw
+    sign-of-the-point: your rotation is correct, but your point on the axis has the
+      wrong sign. The point is omega x v, and I - R times this point gives the
+      translation
+    slide-forgotten: a screw with omega = 0 causes no motion in your code, but such a
+      screw represents a pure translation
+    slide-without-theta: in your code, a screw with omega = 0 translates by v. It should
+      translate by theta v
     """
     omega = S[:3]
     v = S[3:]
@@ -184,15 +178,15 @@ def _(S, theta):
 
 @row.wrong
 def exp_by_entries(S, theta):
-    """np.exp acts on each entry; the exponential of a matrix is a series of matrix
-    products => np.exp of [S] theta"""
+    """your code uses np.exp, which acts on each entry, but the matrix exponential is a
+    series of matrix products"""
     bracket = np.zeros((4, 4))
     bracket[:3, :3] = skew(S[:3])
     bracket[:3, 3] = S[3:]
     return np.exp(bracket * theta)
 
 
-row.reached_by("skew", "in [omega], ", called={"w_": "omega_"})
+row.reached_by("skew", "in the matrix [omega], ", called={"w_": "omega_"})
 row.reached_by("exp_rotation", "in the rotation, ")
 row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign
 

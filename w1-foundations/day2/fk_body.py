@@ -17,10 +17,10 @@ either_form(row, body)
 
 @row.wrongs
 def _(body_screws, M, q):
-    """M-last: M is on the right of the exponentials, or the screws are transformed
-      again. The exponentials of screws in the end-effector frame multiply M on the
-      right => the product with M last
-    motions-on-the-left: each exponential multiplies the product on the left. The screws
+    """M-last: your product has M to the right of the exponentials, or your code
+      transforms the screws a second time. For screws in the end-effector frame, M
+      belongs on the left
+    motions-on-the-left: your code multiplies each exponential on the left. The screws
       are expressed in the end-effector frame, so each exponential belongs on the right
     """
     return {

@@ -16,13 +16,12 @@ either_form(row, space)
 
 @row.wrongs
 def _(screws, M, q):
-    """M-first: M is to the left of the exponentials. The screws are expressed in the
-      world frame, so their exponentials multiply M on the left => the product with M
-      first
-    M-only-added: the translation of M is added and its rotation is missing; multiply by
-      M => the product with t of M added
-    space-screws-in-body-form: the screws are transformed to the end-effector frame, but
-      the product is the one for the world frame => that product
+    """M-first: your product has M to the left of the exponentials. For screws in the
+      world frame, M belongs on the right
+    M-only-added: your code adds only the translation of M. Multiply by M instead, which
+      also contains a rotation
+    space-screws-in-body-form: your code transforms the screws to the end-effector
+      frame, but its product needs screws in the world frame. Use the screws unchanged
     """
     added = np.zeros((4, 4))
     added[:3, 3] = M[:3, 3]
@@ -36,8 +35,8 @@ def _(screws, M, q):
 
 @row.wrong
 def screws_moved_along(screws, M, q):
-    """each screw is transformed by the joints before it. The product already includes
-    these motions, so use the screws at q = 0 => that product"""
+    """your code transforms each screw by the motions of the joints before it. The
+    product already includes these motions, so use the screws at q = 0"""
     T = np.eye(4)
     for S, theta in zip(screws, q, strict=True):
         T = T @ motion(adjoint(T) @ S, theta)

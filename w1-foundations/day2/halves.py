@@ -15,13 +15,13 @@ def which_half(case: Case) -> Finding | None:
     gap = np.abs(case.S - case.T)
     omega, v = (float(gap[..., half].max()) for half in (slice(3), slice(3, None)))
     if v <= case.ask.near:
-        says = f"v is correct in every screw, but omega is off by up to {omega:.3g}"
-        return Finding("omega-off", f"{says} in one entry.{_right_for(case)}")
+        says = "Your v is correct in every screw, but at least one entry of omega is "
+        return Finding("omega-off", f"{says}off by {omega:.3g}.{_right_for(case)}")
     if omega <= case.ask.near:
-        says = f"omega is correct in every screw, but v is off by up to {v:.3g}"
-        return Finding("v-off", f"{says} in one entry.{_right_for(case)}")
-    says = f"Both halves are wrong: omega by up to {omega:.3g}, v by up to {v:.3g}"
-    return Finding("both-off", f"{says} in one entry.{_right_for(case)}")
+        says = "Your omega is correct in every screw, but at least one entry of v is "
+        return Finding("v-off", f"{says}off by {v:.3g}.{_right_for(case)}")
+    says = f"Your omega and v are both wrong. Their largest errors are {omega:.3g} and "
+    return Finding("both-off", f"{says}{v:.3g}, respectively.{_right_for(case)}")
 
 
 def turned_round(case: Case) -> Finding | None:
@@ -34,8 +34,8 @@ def turned_round(case: Case) -> Finding | None:
     first = f", as for {given}" if 0 < len(given) <= 90 else ""
     return Finding(
         "axis-turned-round",
-        f"For {np.sum(~right)} of {len(right)} inputs omega and v are both negated"
-        f"{first}. Is the axis reversed? Use it as it is given.",
+        f"Your omega and v are both negated in {np.sum(~right)} of {len(right)} calls"
+        f"{first}. Does your code reverse the axis? Use the axis as it is given.",
     )
 
 
@@ -43,4 +43,4 @@ def _right_for(case: Case) -> str:
     wrong: Array = difference(case.S, case.T) > case.ask.near
     if wrong.all():
         return ""
-    return f" The result is right for {np.sum(~wrong)} of {len(wrong)} inputs."
+    return f" The result is wrong in {np.sum(wrong)} of {len(wrong)} calls."

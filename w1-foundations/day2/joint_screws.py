@@ -24,22 +24,22 @@ def _(rng):
 
 @row.wrongs
 def _(T_zero):
-    """axis-row-not-column: the axis is a row of R; the link's z axis, expressed in the
-      world frame, is a column => the answer with the third row
-    axis-local-z: the axis is (0, 0, 1) for every joint, which is z in the link frame.
-      The screw should be expressed in the world frame => the answer with (0, 0, 1)
-    axis-x-column: the axis is the link's x axis; the Panda's joints rotate about z
-    axis-y-column: the axis is the link's y axis; the Panda's joints rotate about z
-    point-is-local-pos: the point is the position of each link relative to its parent;
-      the screw is expressed in the world frame
-    all-local: the axis and the point are relative to the parent link; the screw is
-      expressed in the world frame => the answer from those poses
-    poses-multiplied: the poses are multiplied along the arm; the given poses are
-      already relative to the world => the answer from those products
-    point-turned-back: the point is rotated into the link frame; the point is already
-      expressed in the world frame => the answer with R^T p
-    next-links-point: the point of each joint is the origin of the next link, which is
-      not always on the joint's axis => the answer with those points
+    """axis-row-not-column: your axis is a row of R, but the link's z axis, expressed in
+      the world frame, is a column
+    axis-local-z: your axis is (0, 0, 1) for every joint, which is the z axis in the
+      link frame. The screw should be expressed in the world frame
+    axis-x-column: your axis is the link's x axis, but the Panda's joints rotate about z
+    axis-y-column: your axis is the link's y axis, but the Panda's joints rotate about z
+    point-is-local-pos: your point on each axis is the link's position relative to its
+      parent, but the screw should be expressed in the world frame
+    all-local: your axis and your point are relative to the parent link, but the screw
+      should be expressed in the world frame
+    poses-multiplied: your code multiplies the poses along the arm, but the given poses
+      are already relative to the world
+    point-turned-back: your code rotates the point into the link frame, but the point is
+      already expressed in the world frame
+    next-links-point: your point for each joint is the origin of the next link, which is
+      not always on the joint's axis
     """
     R = T_zero[:, :3, :3]
     p = T_zero[:, :3, 3]
@@ -67,9 +67,8 @@ for before in (
 ):
     row.wrong(
         "previous-links-point",
-        "the point of each joint is the origin of the previous link, which is not "
+        "your point for each joint is the origin of the previous link, which is not "
         "always on the joint's axis",
-        "the answer with those points",
     )(
         lambda T_zero, before=before: screw_axis(
             T_zero[:, :3, 2], before(T_zero[:, :3, 3])

@@ -87,9 +87,9 @@ def _exponential(S: Array, q: Array, k: int) -> Factor:
     name = f"joint{k + 1}"
 
     def candidates() -> Found:
-        never = f"{name} does not move: its exponential is missing"
+        never = f"{name} does not move, because your product omits its exponential"
         yield Finding("joint-skipped", never), np.eye(4)[None]
-        twice = f"{name}'s exponential is applied twice"
+        twice = f"Your product applies {name}'s exponential twice"
         yield Finding("joint-twice", twice), exp_screw(S[:, k], 2.0 * q[:, k])
         for j in set(range(q.shape[1])) - {k}:
             says = f"{name} moves by the angle of joint{j + 1}"
@@ -147,11 +147,12 @@ def _one_at_a_time(case: Case) -> Finding | None:
         return None
     if not off:
         where = (
-            "With one joint moved at a time the pose is correct, so look at the "
+            "If only one joint moves at a time, your pose is correct, so look at the "
             "product of the exponentials, for example at their order."
         )
     else:
-        where = f"With one joint moved at a time, the pose is wrong for {_these(off)}."
+        where = "If only one joint moves at a time, your pose is wrong for "
+        where += f"{_these(off)}."
     found = Pose().what_is_wrong(case.S, case.T)
     return Finding(found.slug, f"{found.message} {where}")
 

@@ -70,15 +70,16 @@ def either_form(row, form):
 def _in_the_product(row, form):
     @row.wrongs
     def _(screws, M, q):
-        """product-reversed: the exponentials are in the reverse order; the joint
-          nearest to the base belongs on the left => the product in reverse order
-        M-twice: M is on both sides of the exponentials => the product with M twice
-        M-in-the-loop: M is inside the loop, so the product contains M once per joint;
-          it should contain M only once => that product
-        multiplied-by-entries: the exponentials are multiplied entry by entry; use the
-          matrix product => the product by entries
-        multiplied-by-entries 2: the exponentials are multiplied entry by entry; use the
-          matrix product => the product by entries, from the identity on
+        """product-reversed: your exponentials are in the reverse order. The exponential
+          of the joint nearest to the base belongs on the left
+        M-twice: your product contains M on both sides of the exponentials. It should
+          contain M only once
+        M-in-the-loop: your code multiplies by M inside the loop, so the product
+          contains M once per joint. It should contain M only once
+        multiplied-by-entries: your code multiplies the exponentials entry by entry. Use
+          the matrix product
+        multiplied-by-entries 2: your code multiplies the exponentials entry by entry.
+          Use the matrix product
         """
         factors = [motion(S, theta) for S, theta in zip(screws, q, strict=True)]
         beside_M = [with_M(form, T, M) for T in factors]
@@ -93,8 +94,8 @@ def _in_the_product(row, form):
 
     @row.wrong
     def exponentials_summed(screws, M, q):
-        """the twists are added and exponentiated together; e^A e^B is e^(A + B) only if
-        A and B commute => the exponential of the sum"""
+        """your code adds the twists and computes one exponential of the sum, but e^A
+        e^B is e^(A + B) only if A and B commute"""
         V = q @ screws
         size = np.linalg.norm(V[:3]) or 1.0
         return with_M(form, motion(V / size, size), M)
@@ -103,12 +104,14 @@ def _in_the_product(row, form):
 def _in_M(row, form):
     @row.wrongs(hidden={"M-turned-back": "the Panda's M is symmetric"})
     def _(screws, M, q):
-        """M-forgotten: M is missing; the motions act on the pose of the end effector at
-          q = 0 => the product without M
-        M-inverted: M is inverted; M itself maps end-effector coordinates to the world
-        M-twice: the product contains M twice => the product with M M for M
-        M-rotation-missing: only the translation of M is used; its rotation is missing
-        M-turned-back: the rotation of M is transposed => the product with that M
+        """M-forgotten: your product lacks M. The exponentials should act on M, the
+          end-effector pose at q = 0
+        M-inverted: your code inverts M, but M itself maps end-effector coordinates to
+          world coordinates
+        M-twice: your product contains M twice. It should contain M only once
+        M-rotation-missing: your code uses only the translation of M and omits its
+          rotation
+        M-turned-back: your code transposes the rotation of M. Use M unchanged
         """
         used = {
             "M-forgotten": np.eye(4),

@@ -19,24 +19,24 @@ def _(rng):
 
 @row.wrongs
 def _(axis, point):
-    """moment-sign: omega is correct, but v has the wrong sign: v is the velocity of the
-      origin, and the vector from your point to the origin is -point => the correct
-      result with v = +omega x point
-    moment-is-point: v is the point itself; v should be a velocity, which depends on
-      omega as well => (omega; point)
-    moment-is-minus-point: v is the negative of the point; v should be a velocity, which
-      depends on omega as well => (omega; -point)
-    moment-is-foot: v is the point of the axis nearest to the origin; v should be a
-      velocity, which is perpendicular to that point => (omega; that point)
-    moment-forgotten: v is 0 for every point, which is correct only for an axis through
-      the origin => (omega; 0)
-    twist-order: the two halves are swapped: omega comes first, then v => (v; omega)
-    twist-order-and-sign: the halves are swapped, because omega comes first, and v has
-      the wrong sign => (omega x point; omega)
-    product-by-entries: v is omega times the point entry by entry; use the cross product
-      => (omega; -omega * point)
-    product-by-entries 2: v is omega times the point entry by entry; use the cross
-      product => (omega; omega * point)
+    """moment-sign: your omega is correct, but v has the wrong sign. The velocity v
+      belongs to the origin, and the vector from your point to the origin is -point
+    moment-is-point: your v is the point itself. It should be the velocity of the
+      origin, which also depends on omega
+    moment-is-minus-point: your v is the negative of the point. It should be the
+      velocity of the origin, which also depends on omega
+    moment-is-foot: your v is the position of the axis point nearest to the origin. It
+      should be the velocity of the origin, which is perpendicular to that position
+    moment-forgotten: your v is 0 for every point, which is correct only for an axis
+      through the origin
+    twist-order: your two halves are swapped. The first half should be omega, and the
+      second half should be v
+    twist-order-and-sign: your two halves are swapped, and v has the wrong sign. The
+      first half should be omega
+    product-by-entries: your code multiplies omega and the point entry by entry to get
+      v. Use the cross product
+    product-by-entries 2: your code multiplies omega and the point entry by entry to get
+      v. Use the cross product
     """
     v = np.cross(point, axis)
     return {

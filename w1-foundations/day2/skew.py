@@ -8,7 +8,7 @@ from robo47.screws import skew
 row = Row(Matrix((3, 3)))
 
 FLIPPED = {"x": [-1, 1, 1], "y": [1, -1, 1], "z": [1, 1, -1]}
-SIGNS = (1, "", "the two swapped"), (-1, ", and all signs are reversed", "both")
+SIGNS = (1, ""), (-1, " and reverses all signs")
 SWAPPED = {"w_x and w_z": [2, 1, 0], "w_x and w_y": [1, 0, 2], "w_y and w_z": [0, 2, 1]}
 
 
@@ -20,13 +20,14 @@ def _(rng):
 
 @row.wrongs
 def _(w):
-    """p-cross-w: every sign is reversed, so the matrix is the transpose and computes p
-      x w => the correct result with its signs reversed
-    no-minus: the matrix has no minus sign; [w] is antisymmetric => the correct result
-      with every sign a plus
-    outer-product: the matrix is the outer product w w^T, which projects onto w instead
-      of computing w x p => that product
-    on-the-diagonal: w is on the diagonal; the diagonal of an antisymmetric matrix is 0
+    """p-cross-w: your code reverses every sign, so it returns the transpose, which
+      computes p x w instead of w x p
+    no-minus: your code makes every sign positive, but the matrix should be
+      antisymmetric
+    outer-product: your code returns the outer product w w^T, which projects onto w
+      instead of computing w x p
+    on-the-diagonal: your code puts the vector on the diagonal, but the diagonal of an
+      antisymmetric matrix is 0
     """
     x, y, z = w
     return {
@@ -40,15 +41,14 @@ def _(w):
 for letter, signs in FLIPPED.items():
     row.wrong(
         "pair-of-signs",
-        f"the two entries that contain w_{letter} have the wrong sign",
-        f"the correct result with {letter} negated",
+        f"your two entries that contain w_{letter} have the wrong signs",
     )(lambda w, signs=signs: skew(w * signs))
-for sign, more, redone in SIGNS:
+for sign, more in SIGNS:
     for letters, order in SWAPPED.items():
         row.wrong(
             "letters-swapped",
-            f"{letters} are swapped{more}",
-            f"the correct result with {redone}",
+            f"your code swaps {letters}{more}",
+            both=bool(more),
         )(lambda w, order=order, sign=sign: skew(sign * w[order]))
 for half, filled, empty in (
     (np.triu, "upper right", "lower left"),
@@ -56,8 +56,8 @@ for half, filled, empty in (
 ):
     row.wrong(
         "half-empty",
-        f"only the {filled} half is filled; the {empty} half is its negative",
-        f"the correct result without its {empty.split()[0]} half",
+        f"your code fills only the {filled} half. The {empty} half should contain the "
+        f"mirrored entries with the opposite sign",
     )(lambda w, half=half: half(skew(w)))
 
 

@@ -28,8 +28,8 @@ def where_the_angle_fails(case: Case) -> Finding | None:
         )
     some = off & by_pi
     i = np.flatnonzero(some)[0]
-    says = f"At an angle {np.pi - angle[i]:.0e} rad below pi your answer is off by "
-    says += f"{np.abs(S[i] - T[i]).max():.2g}."
+    says = f"For an angle {np.pi - angle[i]:.0e} rad below pi, your result is off by "
+    says += f"{np.abs(S[i] - T[i]).max():.2g} rad."
     return _near_pi(S, T, some, says)
 
 
@@ -38,21 +38,21 @@ def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
     if difference(S[some], -T[some]).max() < OFF:
         return Finding(
             "sign-near-pi",
-            f"{says} The axis is correct there, but its sign is not: R - R^T is "
-            "small, and it still gives the sign.",
+            f"{says} The axis is correct, but its sign is not. R - R^T is small "
+            "there, but it still determines the sign.",
         )
     if one_of_two[some].max() > OFF and _alike(np.abs(S[some]), np.abs(T[some])):
         return Finding(
             "signs-near-pi",
-            f"{says} The entries are correct there except for their signs, which a "
-            "root of the diagonal loses. Which column of R + R^T has them?",
+            f"{says} The entries are correct except for their signs, which a "
+            "square root of the diagonal loses. Which column of R + R^T contains them?",
         )
     if found := _set_to_pi(S, T, some):
         return found
     return Finding(
         "wrong-near-pi",
-        f"{says} R - R^T is nearly 0 there: is it divided by the sine, which "
-        "amplifies its rounding errors?",
+        f"{says} R - R^T is nearly 0 there. Does your code divide it by the sine? "
+        "This division amplifies the rounding errors.",
     )
 
 
@@ -67,8 +67,8 @@ def _set_to_pi(S: Array, T: Array, some: np.ndarray) -> Finding | None:
     least = np.pi - float(length.min())
     return Finding(
         "pi-for-the-angle",
-        f"The angle is pi where it should be {least:.1e} rad smaller. The sine is "
-        "small there, but not 0, so atan2 gives the angle.",
+        f"Your angle is pi where it should be {least:.1e} rad smaller. The sine is "
+        "small there, but not 0, so atan2 still gives the angle.",
     )
 
 
@@ -78,8 +78,8 @@ def _zero_near_0(S: Array, T: Array, some: np.ndarray) -> Finding | None:
     angle = float(np.linalg.norm(T[some], axis=1).max())
     return Finding(
         "zero-for-small-angles",
-        f"The result is 0 for a rotation by {angle:.0e} rad: a threshold is too large. "
-        "What is the answer there without a division?",
+        f"Your result is 0 for a rotation by {angle:.0e} rad, so a threshold is too "
+        f"large. Which formula for small angles needs no division?",
     )
 
 
@@ -92,24 +92,24 @@ def _everywhere(
     if difference(S[off], -T[off]).max() < OFF:
         return Finding(
             "sign-of-the-axis",
-            f"The sign of the result is wrong for {k} of {n} rotations: an axis has "
-            "two directions, and R - R^T gives the correct one.",
+            f"Your result has the wrong sign for {k} of {n} rotations. An axis has "
+            f"two directions, and R - R^T determines the correct direction.",
         )
     other_way = T[off] * (1.0 - 2.0 * np.pi / angle[off, None])
     if difference(S[off], other_way).max() < OFF:
         return Finding(
             "angle-over-pi",
-            f"The angle is more than pi for {k} of {n} rotations. The quaternions q "
-            "and -q represent the same rotation; use the one with w > 0.",
+            f"Your angle is more than pi for {k} of {n} rotations. The quaternions q "
+            f"and -q represent the same rotation, so use the quaternion with w > 0.",
         )
     least = angle[off].min()
     if angle[angle < least].max(initial=0.0) < 2.0:
         return None
     return Finding(
         "large-angles",
-        f"The smallest angle at which your answer is wrong is {np.degrees(least):.0f} "
-        f"degrees, and it is off by up to {difference(S, T).max():.3g} rad: is it the "
-        "part of your function that is for angles near pi?",
+        f"Your result is wrong only for angles of {np.degrees(least):.0f} degrees or "
+        f"more, by up to {difference(S, T).max():.3g} rad. Look at the part of your "
+        f"function for angles near pi.",
     )
 
 
@@ -138,7 +138,7 @@ def _as_an_arccosine(S: Array, T: Array, off: np.ndarray) -> Finding | None:
         return None
     return Finding(
         "arccosine",
-        f"Close, but not equal: the angle is off by {apart:.1e} near 0 or pi. An "
-        "arccosine loses half the digits there; which function uses the sine and the "
-        "cosine?",
+        f"Your result is close, but the angle is off by {apart:.1e} near 0 or pi. An "
+        f"arccosine loses half of the digits there. Which function uses both the sine "
+        f"and the cosine?",
     )

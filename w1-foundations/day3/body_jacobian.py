@@ -22,20 +22,19 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, T):
-    """space-for-body: the result is J_space, expressed in the world frame => J_space
-      itself
-    site-for-body: the result is J_site: its v belongs to the correct point, but is
-      expressed in the world frame => J_site
-    rotation-only: J_space is only rotated into the hand frame; v is still the velocity
-      of the point at the world's origin => J_space rotated into the hand frame
-    transposed-adjoint: Ad(T) is transposed; the inverse of an adjoint is not its
-      transpose => the Jacobian with that transpose
-    bracket-without-R: the lower left block of the adjoint is [p]; it should be [p] R =>
-      the Jacobian with that adjoint
-    bracket-on-the-right: the lower left block of the adjoint is R [p]; it should be [p]
-      R => the Jacobian with that adjoint
-    turned-by-R: J_site is multiplied by R, which maps the hand frame to the world; use
-      R^T => J_site multiplied by R
+    """space-for-body: your code returns J_space, which is expressed in the world frame.
+      J_body should be expressed in the hand frame
+    site-for-body: your code returns J_site, whose v belongs to the correct point but is
+      expressed in the world frame. Express both halves in the hand frame
+    rotation-only: your code only rotates J_space into the hand frame, but v is still
+      the velocity of the point at the world origin
+    transposed-adjoint: your code transposes Ad(T), but the inverse of an adjoint is not
+      its transpose
+    bracket-without-R: the lower left block of your adjoint is [p]. It should be [p] R
+    bracket-on-the-right: the lower left block of your adjoint is R [p]. It should be
+      [p] R
+    turned-by-R: your code multiplies J_site by R, which rotates from the hand frame to
+      the world frame. Use R^T
     """
     J_site = site_jacobian(J_space, T[:3, 3])
     R = np.kron(np.eye(2), T[:3, :3])

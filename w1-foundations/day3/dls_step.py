@@ -19,9 +19,9 @@ def _without_damping(rng):
 
 AT_NO_DAMPING = HeldOut(
     "zero-without-damping",
-    "Your function is correct for damping above 0 but returns zeros for damping 0. "
-    "With zero damping, the damped least-squares step is the pseudo-inverse step. Step "
-    "6 of the lab uses this case.",
+    "Your function is correct if `damping` is positive but returns zeros if `damping` "
+    "is 0. Without damping, the damped least-squares step is the pseudo-inverse step. "
+    "Step 6 of the lab uses this case.",
     _without_damping,
     mistaken=lambda J, e, damping: np.zeros(7),
 )
@@ -38,27 +38,27 @@ def _(rng):
 
 @row.wrongs
 def _(J, e, damping):
-    """relative-damping: the damping is multiplied by the largest singular value of J;
-      the damping already has the units of J => the step with damping ||J||
-    damping-dropped: the damping is missing, so the result is the step of the
-      pseudo-inverse, which is very large near a singularity => the step of the
-      pseudo-inverse
-    damping-everywhere: damping^2 is added to every entry of J J^T; it belongs on the
-      diagonal only => the step with damping^2 in every entry
-    transpose-only: the result is J^T e: the inverse is missing => J^T e
-    pseudo-inverse-scaled: the step of the pseudo-inverse is divided by 1 + damping^2;
-      damping should reduce the directions with small singular values most => the step
-      of the pseudo-inverse over 1 + damping^2
-    damping-fixed: the damping is always 0.05; use the argument
-    damping-added-to-the-values: the damping is added to each singular value s, as 1 /
-      (s + damping). The formula has the factor s / (s^2 + damping^2)
-    singular-value-missing 2: the factors are 1 / (s^2 + damping^2) for the singular
-      values s above 0, but J^T multiplies each of them by s
-    damping-as-a-cut: the damping is used as rcond of the pseudo-inverse, which discards
-      small singular values; damping only reduces their weight => the step of pinv(J,
-      damping)
-    singular-value-missing: the factors are 1 / (s^2 + damping^2) for the singular
-      values s; J^T multiplies each by s
+    """relative-damping: your code multiplies `damping` by the largest singular value of
+      J, but `damping` already has the units of J
+    damping-dropped: your code omits the damping, so the result is the pseudo-inverse
+      step, which is very large near a singularity
+    damping-everywhere: your code adds damping^2 to every entry of J J^T. Add it only to
+      the diagonal
+    transpose-only: your code returns the gradient step J^T e. The damped least-squares
+      step also needs the inverse of the damped J J^T
+    pseudo-inverse-scaled: your code divides the pseudo-inverse step by 1 + damping^2,
+      which scales all directions alike. Damping should mainly reduce directions with
+      small singular values
+    damping-fixed: your damping is always 0.05. Use the argument `damping`
+    damping-added-to-the-values: your factors are 1 / (s + damping) for the singular
+      values s. They should be s / (s^2 + damping^2)
+    singular-value-missing 2: your factors are 1 / (s^2 + damping^2) for the singular
+      values s above 0. Each factor should also contain s, because J^T contributes a
+      factor s
+    damping-as-a-cut: your code passes `damping` to the pseudo-inverse as `rcond`, which
+      discards small singular values. Damping should only reduce their weight
+    singular-value-missing: your factors are 1 / (s^2 + damping^2) for the singular
+      values s. Each factor should also contain s, because J^T contributes a factor s
     """
     U, s, Vt = np.linalg.svd(J, full_matrices=False)
     along = U.T @ e  # the singular directions of the hand

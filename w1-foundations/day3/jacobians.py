@@ -21,8 +21,8 @@ def of_another_size(*rest: Array) -> HeldOut:
     """Return the questions of a Jacobian with another number of rows and columns."""
     return HeldOut(
         "six-rows-only",
-        "Your result is correct for Jacobians of six rows and seven columns, but not "
-        "for the J of the docstring, which is 2x3: take the numbers from J.shape.",
+        "Your result is correct for 6x7 Jacobians, but not for the 2x3 Jacobian in the "
+        "docstring. Take the dimensions from `J.shape`.",
         lambda rng: [(PLANE, *rest), (PLANE + 0.5, *rest)],
     )
 

@@ -23,18 +23,18 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p, F):
-    """at-the-origin: your code uses J_space^T, which belongs to a wrench about the
-      world's origin; the given wrench is about p => the torques with J_space for J_site
-    what-balances-it: the sign is correct for a wrench that acts on the hand. The hand
-      exerts F, so the power of the motors equals the power of F => its negative
-    pseudo-inverse: the result is J^+ F, which does not conserve power; write down the
-      power of the motors and of the hand => J^+ F
-    moment-forgotten: the moment is missing; its power is moment . omega
-    force-forgotten: the force is missing; its power is force . v
-    arm-the-wrong-way: the moment of the force about the origin is f x p; it should be p
-      x f => the torques with -p for p
-    arm-twice: p x f is added to the moment although the Jacobian already belongs to p;
-      use only one of the two => the torques with both
+    """at-the-origin: your code uses J_space^T, which requires the moment about the
+      world origin, but the given moment is about p
+    what-balances-it: your sign is correct for a wrench that acts on the hand, but F is
+      the wrench that the hand exerts. The motor power should equal the power of F
+    pseudo-inverse: your code returns J^+ F, which does not conserve power. Write down
+      the motor power and the power of F at the hand
+    moment-forgotten: your code omits the moment, whose power is moment . omega
+    force-forgotten: your code omits the force, whose power is force . v
+    arm-the-wrong-way: your moment of the force about the origin is f x p. It should be
+      p x f
+    arm-twice: your code adds p x f to the moment, but the Jacobian already belongs to
+      the point p. Use only one of these two conversions => both
     """
     J = site_jacobian(J_space, p)
     moment = F[:3]

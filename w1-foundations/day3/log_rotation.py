@@ -23,8 +23,9 @@ def _half_turns(rng):
 
 HALF_TURN = HeldOut(
     "wrong-at-pi",
-    "Your function is correct below pi, but not at exactly pi. There R - R^T is 0 and "
-    "gives neither the axis nor its sign; the docstring defines the sign.",
+    "Your function is correct for angles below pi, but not for exactly pi. There "
+    "R - R^T is 0 and determines neither the axis nor its sign. The docstring defines "
+    "the sign.",
     _half_turns,
 )
 row = Row(
@@ -131,24 +132,21 @@ def roll_pitch_yaw(R):
 
 @row.wrongs
 def _(R):
-    """sine-for-angle: the norm of the vector is the sine of the angle; it should be the
-      angle => the axis times the sine
-    twice-the-sine: the vector has the entries of R - R^T, so its norm is twice the sine
-      of the angle => that vector
-    quaternion-vector-part: the vector is the vector part of the quaternion, whose norm
-      is sin(angle / 2) => that vector part
-    twice-the-quaternion-part: the vector is twice the vector part of the quaternion,
-      which is accurate for small angles only => twice that vector part
-    axis-only: the vector is the unit axis; its norm should be the angle => the axis
-      alone
-    arcsine: the angle is an arcsine, which cannot distinguish 100 degrees from 80; use
-      the trace as well => the axis times the arcsine
-    half-the-angle: the norm of the vector is half the angle, as in a quaternion => half
-      of the rotation vector
-    in-degrees: the angle is in degrees; it should be in radians => the result in
-      degrees
-    roll-pitch-yaw: the result is roll, pitch and yaw, the angles of three rotations;
-      the rotation vector belongs to one rotation => the vector (roll, pitch, yaw)
+    """sine-for-angle: the norm of your vector is the sine of the angle. It should be
+      the angle
+    twice-the-sine: your vector has the entries of R - R^T, so its norm is twice the
+      sine of the angle. It should be the angle
+    quaternion-vector-part: your vector is the vector part of the quaternion, whose norm
+      is sin(angle / 2). The norm should be the angle
+    twice-the-quaternion-part: your vector is twice the vector part of the quaternion,
+      which is accurate only for small angles
+    axis-only: your vector is the unit axis. Its norm should be the angle
+    arcsine: your code computes the angle with an arcsine, which cannot distinguish 100
+      degrees from 80 degrees. Use the trace as well
+    half-the-angle: the norm of your vector is half the angle, as in a quaternion
+    in-degrees: your angle is in degrees. It should be in radians
+    roll-pitch-yaw: your code returns roll, pitch and yaw, the angles of three
+      successive rotations, but a rotation vector describes a single rotation
     """
     q = se3.R_to_quat(R)
     a, sine, _ = parts(R)
@@ -168,12 +166,9 @@ def _(R):
 
 @row.wrongs
 def _(R):
-    """half-the-trace-less-1: the cosine is trace / 2 - 1; it should be (trace - 1) / 2
-      => the axis times the arccosine of trace / 2 - 1
-    half-the-trace-less-1 2: the cosine is trace / 2 - 1; it should be (trace - 1) / 2
-      => the axis times that arccosine, with its NaN,
-    half-the-trace-less-1 3: the cosine is trace / 2 - 1; it should be (trace - 1) / 2
-      => the textbook formula with that arccosine
+    """half-the-trace-less-1: your cosine is trace / 2 - 1. It should be (trace - 1) / 2
+    half-the-trace-less-1 2: your cosine is trace / 2 - 1. It should be (trace - 1) / 2
+    half-the-trace-less-1 3: your cosine is trace / 2 - 1. It should be (trace - 1) / 2
     """
     c = np.trace(R) / 2 - 1
     angle = np.arccos(c)
@@ -187,11 +182,11 @@ def _(R):
 @row.wrongs(hidden={"arccosine-beyond-1": "its identity is exact"})
 def _(R):
     """textbook-formula: your formula theta / (2 sin theta) times R - R^T is 0 / 0 for
-      the identity, and near pi it divides rounding errors by nearly 0 => that formula,
-      with its NaN,
-    nan-at-0: the result for the identity is NaN, because the sine is 0 there
-    arccosine-beyond-1: the result is NaN where rounding makes (trace - 1) / 2 larger
-      than 1 or smaller than -1; atan2 has no such limit
+      the identity, and near pi it divides rounding errors by nearly 0
+    nan-at-0: your result for the identity is NaN, because your code divides by the
+      sine, which is 0 there
+    arccosine-beyond-1: your result is NaN where rounding makes (trace - 1) / 2 larger
+      than 1 or smaller than -1. Use atan2, which accepts all values
     """
     angle = np.arccos(cosine(R))
     no_turn = cosine(R) > 0 and not vee(R).any()
@@ -211,9 +206,8 @@ def from_column(R, k):
 for k, (which, missing) in enumerate((("first", "x"), ("second", "y"), ("last", "z"))):
     row.wrong(
         "fixed-column",
-        f"near pi the axis always comes from the {which} column, which is 0 if the "
-        f"axis has no {missing} component; use the largest column",
-        f"column {k}, with its NaN,",
+        f"near pi your code always takes the axis from the {which} column. This column "
+        f"is 0 if the axis has no {missing} component. Use the largest column",
         hidden="its half turn is about y" if missing == "y" else "",
     )(lambda R, k=k: from_column(R, k))
 
@@ -291,8 +285,8 @@ def _(R):
 
 @row.wrong
 def two_arguments_exchanged(R):
-    """the angle is pi minus the right one: the two arguments of the arctangent are
-    swapped, or one has the wrong sign"""
+    """your angle is pi minus the correct angle, because the cosine (the second argument
+    of the arctangent) has the wrong sign"""
     w = log_rotation(R)
     angle = np.linalg.norm(w)
     return (np.pi - angle) * w / angle if angle > 0 else w

@@ -39,21 +39,19 @@ def values(J):
 
 @row.wrongs
 def _(J):
-    """no-square-root: the square root is missing: the result is det(J J^T) => det(J
-      J^T)
-    other-product: your code uses J^T J, which is 7x7 and always singular; use J J^T =>
-      the root of det(J^T J)
-    largest-singular-value: the result is the largest singular value, the norm of J; it
-      should be the product of all six
-    trace: the result comes from the trace, the sum of the eigenvalues; use the
-      determinant, which is their product
-    inverse-condition: the result is the smallest singular value divided by the largest,
-      which is another measure => the inverse of the condition number
-    square-part: the result is the determinant of the first six columns; use all seven
-    position-only: only the three v rows of J are used; use all six rows => the root of
-      det(J J^T) of three rows
-    zeros-left-out: singular values that are 0 are omitted from the product; with one of
-      them, the product is 0 => the product of those above 1e-9
+    """no-square-root: your code returns det(J J^T) without the square root
+    other-product: your code uses J^T J, which is 7x7 and always singular. Use J J^T
+    largest-singular-value: your code returns the largest singular value, the norm of J.
+      The result should be the product of all six singular values
+    trace: your code uses the trace of J J^T, the sum of the eigenvalues. Use the
+      determinant, which is the product of the eigenvalues
+    inverse-condition: your code returns the smallest singular value divided by the
+      largest. The result should be the product of all singular values
+    square-part: your code returns the determinant of the first six columns. Use all
+      seven columns
+    position-only: your code uses only the three v rows of J. Use all six rows
+    zeros-left-out: your code omits singular values that are 0 from the product, but the
+      product should be 0 if at least one singular value is 0
     """
     JJ = J @ J.T
     s = values(J)
@@ -69,15 +67,11 @@ def _(J):
     }
 
 
-for determinant, called in (
-    (np.linalg.det, "det(J J^T)"),
-    (lambda A: np.prod(np.linalg.eigvalsh(A)), "the product of the eigenvalues"),
-):
+for determinant in (np.linalg.det, lambda A: np.prod(np.linalg.eigvalsh(A))):
     row.wrong(
         "nan-at-a-singularity",
-        "the result is NaN for some singular J: rounding makes the number under the "
-        "root negative, so clamp it at 0",
-        f"the root of {called}, with its NaN,",
+        "your result is NaN for some singular J, because rounding makes det(J J^T) "
+        "slightly negative. Clamp the determinant at 0 before the square root",
         hidden="rounding at q = 0 differs",
     )(lambda J, determinant=determinant: np.sqrt(determinant(J @ J.T)))
 

@@ -25,15 +25,15 @@ def what_the_hand_feels(case: Case) -> Finding | None:
         k = int((felt > 1e-5).sum())
         return Finding(
             "felt",
-            f"The hand moves for {k} of {len(S)} inputs: J times your answer has "
-            f"entries of up to {felt.max():.2g} and should be 0.",
+            f"The hand moves in {k} of {len(S)} calls. J times your result should be "
+            f"0, but the largest entry of this product is {felt.max():.2g}.",
         )
     i = int(np.argmax(difference(S, T)))
     return Finding(
         "not-felt-but-off",
-        "The hand does not move (J times your answer is 0), but your answer is not the "
-        f"projection of dq: its norm is {np.linalg.norm(S[i]):.3g}; expected "
-        f"{np.linalg.norm(T[i]):.3g}.",
+        f"The hand does not move, because J times your result is 0, but your result "
+        f"is not the projection of dq. Its norm is {np.linalg.norm(S[i]):.3g}; "
+        f"expected {np.linalg.norm(T[i]):.3g}.",
     )
 
 
@@ -57,23 +57,21 @@ def _(rng):
 
 @row.wrongs(hidden={"one-direction-only": "its J have rank 6"})
 def _(J, dq):
-    """transpose-for-pseudo-inverse: J^T is used instead of J^+; I - J^T J is no
-      projection, so the hand moves => dq - J^T J dq
-    felt-part: the result is J^+ J dq, the part of dq that moves the hand; return the
-      other part
-    unchanged: dq is returned unchanged => dq itself
-    added: the part that moves the hand is added; it should be subtracted => dq + J^+ J
-      dq
-    nothing-left: the result is 0; seven joints always have a motion that does not move
-      the hand => zeros
-    normalised: the result is normalised; the projection of dq has a norm of its own =>
-      the correct result over its norm
-    one-direction-only: only the last right singular vector is used; if J is singular,
-      more motions do not move the hand => dq along that vector
-    first-direction-kept: the part along the first right singular vector, which moves
-      the hand most, is not removed
-    position-only: only the three v rows of J are used, so the hand rotates => the
-      projection of three rows
+    """transpose-for-pseudo-inverse: your code uses J^T instead of J^+, but I - J^T J is
+      not a projection, so the hand moves
+    felt-part: your code returns J^+ J dq, the part of dq that moves the hand. Return
+      the remaining part of dq
+    unchanged: your code returns dq unchanged
+    added: your code adds the part that moves the hand. It should subtract this part
+    nothing-left: your result is 0, but an arm with seven joints always has a motion
+      that does not move the hand
+    normalised: your code normalises the result, but the norm of the projection depends
+      on dq. Return the projection unscaled
+    one-direction-only: your code uses only the last right singular vector. If J is
+      singular, further directions do not move the hand
+    first-direction-kept: your code does not remove the part along the first right
+      singular vector, which moves the hand most
+    position-only: your code uses only the three v rows of J, so the hand rotates
     """
     felt = pinv(J) @ (J @ dq)
     left = dq - felt
@@ -94,8 +92,8 @@ def _(J, dq):
 
 @row.wrong
 def damped_projector(J, dq):
-    """the pseudo-inverse is damped by 0.05, so the hand still moves => the projection
-    with damping"""
+    """your code uses a pseudo-inverse with damping 0.05, so the hand still moves. Use
+    the pseudo-inverse without damping"""
     return dq - dls_step(J, J @ dq, 0.05)
 
 

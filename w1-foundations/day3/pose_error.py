@@ -46,12 +46,12 @@ def screw_log(D):
 
 @row.wrongs
 def _(T, T_goal):
-    """in-the-hands-axes: both halves are expressed in the hand frame; they should be
-      expressed in the world frame => the error rotated by R^T
-    body-twist: the result is the body twist log(T^-1 T_goal), which belongs to J_body;
-      the error should belong to J_site => the body twist
-    space-twist: the result is the spatial twist log(T_goal T^-1), which belongs to
-      J_space; the error should belong to J_site => that twist
+    """in-the-hands-axes: both halves of your error are expressed in the hand frame.
+      They should be expressed in the world frame
+    body-twist: your code returns the body twist log(T^-1 T_goal), which belongs to
+      J_body. The error should belong to J_site
+    space-twist: your code returns the spatial twist log(T_goal T^-1), which belongs to
+      J_space. The error should belong to J_site
     """
     D = np.linalg.inv(T) @ T_goal
     return {
@@ -63,15 +63,14 @@ def _(T, T_goal):
 
 @row.wrongs
 def _(T, T_goal):
-    """rotation-in-the-hands-axes: the rotation is log(R^T R_goal), expressed in the
-      hand frame; it should be expressed in the world frame => the error with log(R^T
-      R_goal)
-    rotation-sign: the rotation leads from the goal to the hand; it should lead from the
-      hand to the goal => the error with log(R R_goal^T)
-    rotation-difference: the rotation vectors are subtracted; log(R_goal) - log(R) is
-      not the rotation from one to the other => the difference of the two logs
-    euler-difference: roll, pitch and yaw are subtracted; their difference is not a
-      rotation vector => the difference of those angles
+    """rotation-in-the-hands-axes: your rotation is log(R^T R_goal), expressed in the
+      hand frame. It should be expressed in the world frame
+    rotation-sign: your rotation leads from the goal to the hand. It should lead from
+      the hand to the goal
+    rotation-difference: your code subtracts the rotation vectors, but log(R_goal) -
+      log(R) is not the rotation vector from R to R_goal
+    euler-difference: your code subtracts roll, pitch and yaw, but their difference is
+      not a rotation vector
     """
     R = T[:3, :3]
     goal = T_goal[:3, :3]
@@ -87,15 +86,14 @@ def _(T, T_goal):
 
 @row.wrongs
 def _(T, T_goal):
-    """translation-in-the-hands-axes: the translation is expressed in the hand frame, as
-      in the last column of T^-1 T_goal. It should be expressed in the world frame =>
-      the error with R^T (p_goal - p)
-    goal-position-for-translation: the translation is the position of the goal; it
-      should be the vector from the hand to the goal => the error with p_goal
-    translation-sign: the translation leads from the goal to the hand; it should lead
-      from the hand to the goal => the error with p - p_goal
-    screw-for-translation: the translation is p_goal - R p, the translation of T_goal
-      T^-1; it should be p_goal - p
+    """translation-in-the-hands-axes: your translation is expressed in the hand frame,
+      as in the last column of T^-1 T_goal. It should be expressed in the world frame
+    goal-position-for-translation: your translation is the position of the goal. It
+      should be the vector from the hand to the goal
+    translation-sign: your translation leads from the goal to the hand. It should lead
+      from the hand to the goal
+    screw-for-translation: your translation is p_goal - R p, the translation of T_goal
+      T^-1. It should be p_goal - p
     """
     goal = T_goal[:3, 3]
     turn = pose_error(T, T_goal)[:3]

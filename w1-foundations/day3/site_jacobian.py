@@ -19,12 +19,12 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p):
-    """space-for-site: the result is J_space, whose v is the velocity of the point at
-      the world's origin, not at p => J_space itself
-    halves-read-as-v-omega: the upper rows of J_space are read as v and the lower rows
-      as omega; omega comes first => the Jacobian with the halves read so
-    omega-changed: omega is changed by v x p; all points of a body have the same omega
-      => the Jacobian with the cross product above
+    """space-for-site: your code returns J_space, whose v is the velocity of the point
+      at the world origin, not at p
+    halves-read-as-v-omega: your code reads the upper rows of J_space as v and the lower
+      rows as omega, but omega comes first
+    omega-changed: your code adds v x p to omega, but all points of a body have the same
+      omega
     """
     omega = J_space[:3]
     v = J_space[3:]

@@ -28,11 +28,12 @@ BOTH_MOVE = "there both halves move"
 
 @row.wrongs
 def _(screws, M, T_goal, q_start, limits):
-    """one-step: only one step is taken; the Jacobian is a linear approximation, so
-      several steps are needed => one step
-    start-returned: the start is returned: no step is taken, or every step increases the
-      error (is the sign of the error correct?) => q_start
-    step-returned: the last step is returned instead of the configuration => a step of 0
+    """one-step: your code takes only one step, but the Jacobian is a linear
+      approximation, so several steps are needed
+    start-returned: your code returns `q_start`, because it takes no step or because
+      every step increases the error. Does your error have the correct sign?
+    step-returned: your code returns the last step instead of the configuration after
+      this step
     """
     first = partial(passed, screws, M, T_goal, q_start, limits, steps=1)
     return {
@@ -52,18 +53,19 @@ def in_the_hands_axes(T, T_goal):
 
 @row.wrongs
 def _(screws, M, T_goal, q_start, limits):
-    """space-jacobian: the steps use J_space, whose v belongs to another point than the
-      hand => the loop with J_space
-    body-jacobian: the steps use J_body, expressed in the hand frame; the error is
-      expressed in the world frame => the loop with J_body
-    error-in-the-hands-axes: the error is expressed in the hand frame; J_site is
-      expressed in the world frame
-    damping-not-squared: the damping is not squared, so the damping term is too large
-    limits-forgotten: the joint limits are not applied
-    jacobian-never-updated: the Jacobian is computed only at the start; the Jacobian
-      changes with every step => the loop with the first Jacobian
-    q-start-unused: the loop starts from READY_Q; it should start from q_start => the
-      loop from READY_Q
+    """space-jacobian: your steps use J_space, whose v is the velocity of the point at
+      the world origin and not of the hand
+    body-jacobian: your steps use J_body, which is expressed in the hand frame, but your
+      error is expressed in the world frame. Express both in the same frame
+    error-in-the-hands-axes: your error is expressed in the hand frame, but J_site is
+      expressed in the world frame. Express both in the same frame
+    damping-not-squared: your code adds the damping instead of its square, so the
+      damping term is too large
+    limits-forgotten: your code does not apply the joint limits. Apply them after each
+      step
+    jacobian-never-updated: your code computes the Jacobian only at the start, but the
+      Jacobian changes with every step
+    q-start-unused: your loop starts from READY_Q. It should start from `q_start`
     """
     J = at_hand(space_jacobian(screws, q_start), fk_space(screws, M, q_start))
     parts = {
@@ -84,21 +86,20 @@ def _(screws, M, T_goal, q_start, limits):
 
 @row.wrong(hidden="it arrives all the same: success is no proof")
 def damping_not_squared(screws, M, T_goal, q_start, limits):
-    """the squared damping is passed as the damping: is its square root missing? => the
-    loop with that damping"""
+    """your code uses the squared damping as the damping, so it is squared twice. Is a
+    square root missing?"""
     return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: ee / 2 + 1e-6)
 
 
 @row.wrong(hidden="few of its targets are at a limit")
 def limits_at_the_end(screws, M, T_goal, q_start, limits):
-    """the joint limits are applied at the end only; apply them after each step => the
-    loop, clipped at its end"""
+    """your code applies the joint limits only at the end. Apply them after each step"""
     return np.clip(walk(screws, M, T_goal, q_start, None), *limits.T)
 
 
 @row.wrong
 def q_start_unused(screws, M, T_goal, q_start, limits):
-    """the loop starts from q = 0; it should start from q_start => the loop from 0"""
+    """your loop starts from q = 0. It should start from `q_start`"""
     return walk(screws, M, T_goal, np.zeros(7), limits)
 
 
@@ -178,8 +179,8 @@ def _(screws, M, T_goal, q_start, limits):  # 0 is taken to be within all limits
     return walk(screws, M, T_goal, q_start, np.array([low, high]).T)
 
 
-WRAPPED = "the angles are wrapped to +-pi at the end; joint 6 may reach 3.75 rad, and "
-WRAPPED += "a wrapped angle is outside its limits"
+WRAPPED = "your code wraps the angles to [-pi, pi] at the end, but joint6 can reach "
+WRAPPED += "3.75 rad, and the wrapped angle is then outside the joint limits"
 for kept in (True, False):
 
     @row.wrong("wrapped-to-pi", WRAPPED)

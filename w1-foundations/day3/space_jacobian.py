@@ -55,24 +55,25 @@ ZERO = np.zeros((3, 3))
 
 @row.wrongs
 def _(screws, q):
-    """screws-constant: the columns are the screws at q = 0; the joints before a joint
-      move its screw => the screws as columns
-    last-joint-only: each screw is moved only by the joint directly before it; all
-      joints before it move the screw => the Jacobian with one exponential per column
-    product-reversed: the exponentials are multiplied in the reverse order; the
-      exponential of joint 1 belongs on the left => the Jacobian with the reversed
-      product
-    one-joint-late: each screw lacks the motion of the joint directly before it: the
-      product is used before it includes that joint => the Jacobian one joint late
-    moved-by-the-next: each screw is also moved by the joint after it, but that joint
-      does not affect the screw => the Jacobian one joint too far
-    moved-by-all: every screw is moved by all seven joints; only the joints before it
-      move it => the Jacobian with the whole product
-    moved-by-those-after: each screw is moved by the joints after it; the joints before
-      it move it => the Jacobian with the product of the joints after each
-    adjoint-of-the-inverse: the screws are transformed with the adjoint of the inverse
-      motion => the Jacobian with the inverse
-    columns-reversed: the columns are in the reverse order; joint 1 comes first
+    """screws-constant: your columns are the screws at q = 0, but each joint moves the
+      screws of all joints after it
+    last-joint-only: your code moves each screw only by the joint directly before it,
+      but all joints before it move the screw
+    product-reversed: your code multiplies the exponentials in the reverse order, but
+      the exponential of joint 1 belongs on the left
+    one-joint-late: your code transforms each screw before it multiplies the product by
+      the exponential of the preceding joint, so each screw lacks the motion of that
+      joint
+    moved-by-the-next: your code also moves each screw by the joint after it, but that
+      joint does not affect the screw
+    moved-by-all: your code moves every screw by all seven joints, but only the joints
+      before it move the screw
+    moved-by-those-after: your code moves each screw by the joints after it, but only
+      the joints before it move the screw
+    adjoint-of-the-inverse: your code transforms the screws with the adjoint of the
+      inverse motion. Use the adjoint of the motion itself
+    columns-reversed: your columns are in the reverse order. The column of joint 1
+      should come first
     """
     alone = [np.eye(4), *exp_screw(screws, q)]
     moved = products(screws, q)
@@ -93,13 +94,12 @@ def _(screws, q):
 
 @row.wrongs
 def _(screws, q):
-    """bracket-top-right: the block [p] R of the adjoint is in the upper right; with
-      (omega; v) it belongs in the lower left => the Jacobian with that adjoint
-    bracket-after-R: the lower left block of the adjoint is R [p]; it should be [p] R
-    rotation-only: the screws are only rotated: the block [p] R of the adjoint is
-      missing => the Jacobian with R alone
-    translation-only: the screws are not rotated: R is missing in the adjoint => the
-      Jacobian with I for R
+    """bracket-top-right: your adjoint has the block [p] R in the upper right. With the
+      order (omega; v), this block belongs in the lower left
+    bracket-after-R: the lower left block of your adjoint is R [p]. It should be [p] R
+    rotation-only: your code only rotates the screws, because your adjoint lacks the
+      block [p] R
+    translation-only: your code does not rotate the screws, because your adjoint lacks R
     """
     adjoints = {
         "bracket-top-right": lambda R, P: [[R, P @ R], [ZERO, R]],
@@ -113,8 +113,7 @@ def _(screws, q):
 
 @row.wrong
 def last_column_missing(screws, q):
-    """the last column is 0, as if the loop ended one joint early => the correct result
-    with that column"""
+    """your last column is 0. Does your loop end one joint early?"""
     J = space_jacobian(screws, q)
     J[:, 6] = 0.0
     return J

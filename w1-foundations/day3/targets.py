@@ -100,13 +100,13 @@ def _reached(goal: Array, start: Array, limits: Array, steps: int = 25) -> np.nd
 def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
     """Return what is wrong with an answer of solve_ik, or None."""
     if not np.isfinite(q).all():
-        return Finding("not-finite", "The result has entries that are not finite.")
+        return Finding("not-finite", "Your result has entries that are not finite.")
     beyond = np.maximum(limits[:, 0] - q, q - limits[:, 1])
     if beyond.max() > 1e-12:
         i = int(np.argmax(beyond))
         says = f"joint{i + 1} is {beyond[i]:.3g} rad beyond its limit."
         return Finding(
-            "beyond-a-limit", f"The result violates the joint limits: {says}"
+            "beyond-a-limit", f"Your result violates the joint limits: {says}"
         )
     before, after = _miss(S, M, T_goal, q_start), _miss(S, M, T_goal, q)
     if before < 1e-8:
@@ -117,17 +117,19 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
         return found
     if after >= before:
         return Finding(
-            "no-nearer", "The result is no nearer to the target than the start."
+            "no-nearer", "Your result is no nearer to the target than the start."
         )
     if after <= 1e-8:
         return None
     if _reached(T_goal, q_start, limits, 45):
-        says = f"The hand does not reach a near target: it is {after:.2g} off"
+        says = (
+            "Your result does not reach a near target: the norm of its pose error is "
+        )
         return Finding(
             "not-reached",
-            f"{says} (radians and metres). Does the loop stop before the error is "
+            f"{says}{after:.2g} (in rad and m). Does the loop stop before the error is "
             "below 1e-8, or are its steps too short, because the damping differs from "
-            "the docstring?",
+            "the damping in the docstring?",
         )
     return _as_the_docstring(T_goal, q_start, limits, after)
 
@@ -140,14 +142,15 @@ def _half_there(S, M, T_goal, q) -> Finding | None:
     if move < 1e-8 and turn > 1e-4:
         says = (
             f"The hand's position is correct, but its rotation is {turn:.2g} rad off. "
-            "Does the loop step, stop or choose by the position alone?"
+            "Does your loop use only the position error in its steps, in its stopping "
+            "test or in its choice of the best q?"
         )
         return Finding("position-only", says)
     if turn < 1e-8 and move > 1e-4:
         says = (
             "The hand's rotation is correct, but its position is "
-            f"{1000 * move:.2g} mm off. Does the loop step, stop or choose by the "
-            "rotation alone?"
+            f"{1000 * move:.2g} mm off. Does your loop use only the rotation error "
+            "in its steps, in its stopping test or in its choice of the best q?"
         )
         return Finding("rotation-only", says)
     return None
@@ -176,13 +179,14 @@ def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
     if least < 1e-3 or after < 1.1 * least:  # another damping: 1.08
         return None
     says = (
-        f"The result is {after:.3g} off a far target; 60 steps can end {least:.3g} off"
+        "For a far target, the norm of the pose error of your result is "
+        f"{after:.3g}, but 60 steps can reduce this norm to {least:.3g}"
     )
     return Finding(
         "not-the-best",
-        f"{says} (radians and metres). Do you return the q with the smallest error (a "
-        "copy, if q changes in place), and are the steps and their damping as in the "
-        "docstring?",
+        f"{says} (in rad and m). Does your code return the q with the smallest "
+        f"error, as a copy if q changes in place? Are the steps and their damping as "
+        f"in the docstring?",
     )
 
 
@@ -194,7 +198,7 @@ def _miss(S, M, T_goal, q) -> float:
 def _unchanged(q_start: Array, q: Array) -> Finding | None:
     if np.abs(q - q_start).max() <= 1e-8:
         return None
-    says = "The start is at the target already, but the result differs from it"
+    says = "The start is already at the target, but your result differs from the start"
     return Finding("start-not-kept", f"{says} by {np.abs(q - q_start).max():.2g} rad.")
 
 
@@ -207,5 +211,6 @@ def _as_near_as_can_be(S, M, T_goal, q_start, limits, after) -> Finding | None:
     best = _best(S, M, T_goal, q_start, limits)
     if after < 1.01 * best:  # measured: 1.001; with J_space up to 1.08
         return None
-    says = f"is {after:.3f} off an unreachable target; {best:.3f} is possible"
-    return Finding("far-from-unreachable", f"The result {says} (radians and metres).")
+    says = "For an unreachable target, the norm of the pose error of your result is "
+    says += f"{after:.3f}, but {best:.3f} is possible (in rad and m)."
+    return Finding("far-from-unreachable", says)

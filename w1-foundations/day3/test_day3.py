@@ -294,7 +294,7 @@ def test_manipulability_and_the_least_singular_value_depend_on_the_unit(arm):
     m, dm = (np.linalg.svd(x)[1][:, -1] for x in (J, scaled(10.0)))
     i, j = np.triu_indices(300, 1)
     swapped = np.mean((m[i] < m[j]) != (dm[i] < dm[j]))
-    assert f"{100 * swapped:.0f} % change their order if you measure in dec" in GUIDE
+    assert f"{100 * swapped:.0f} % change this order if you measure in dec" in GUIDE
 
 
 @pytest.mark.kit

@@ -21,21 +21,20 @@ def _(rng):
 
 @row.wrongs
 def _(V):
-    """v-on-top: the block [v] is in the upper right; the linear velocity does not
-      change an angular velocity, so that block is 0 => the matrix with [v] up there
-    v-forgotten: the block [v] is missing; the linear velocity changes the linear half
-      of a twist
-    second-omega-forgotten: the lower right block is 0; omega also rotates the linear
-      half of a twist => the matrix with 0 there
-    v-in-both-corners: the block [v] is in both off-diagonal blocks; the upper right
-      block should be 0 => the matrix with [v] twice
-    v-last: the lower right block is [v]; both diagonal blocks are [omega]
-    identity-added: the identity is added; ad(V) is a rate of change, so ad(0) is 0 =>
-      the matrix plus the identity
-    product-for-v: the lower left block is [v] [omega]. The adjoint of a pose contains a
-      product, [p] R, but ad(V) contains only [v] => the matrix with [v] [omega] there
-    omega-everywhere: the lower left block is [omega] instead of [v] => the matrix with
-      [omega] three times
+    """v-on-top: your block [v] is in the upper right, but the linear velocity does not
+      change an angular velocity. The block belongs in the lower left
+    v-forgotten: your code omits the block [v], but the linear velocity changes the
+      linear half of a twist
+    second-omega-forgotten: your lower right block is 0, but omega also rotates the
+      linear half of a twist
+    v-in-both-corners: your block [v] is in both off-diagonal blocks. The upper right
+      block should be 0
+    v-last: your lower right block is [v]. Both diagonal blocks should be [omega]
+    identity-added: your code adds the identity. The matrix ad(V) is a rate of change,
+      so ad(0) should be 0
+    product-for-v: your lower left block is [v] [omega]. The adjoint of a pose contains
+      a product, [p] R, but ad(V) contains only [v]
+    omega-everywhere: your lower left block is [omega] instead of [v]
     """
     W = skew(V[:3])
     U = skew(V[3:])

@@ -17,16 +17,16 @@ def _(rng):
 
 
 # Of the call alone: inverse_dynamics is correct when this function is judged.
-@row.wrongs(redone="the torque with this mistake")
+@row.wrongs
 def _(J, G, qd, g):
-    """coriolis-twice: the Coriolis and centrifugal torques are doubled; the gravity
-      torque is correct
-    coriolis-half: the Coriolis and centrifugal torques are halved; the gravity torque
-      is correct
-    speed-in-place-of-acceleration: qd is passed as the acceleration, and 0 as the
-      velocity
-    damping-added: the damping torque, 1.0 qd, is added; MuJoCo and task 4.8 keep it
-      separate
+    """coriolis-twice: your gravity torque is correct, but your Coriolis and centrifugal
+      torques are twice the correct torques
+    coriolis-half: your gravity torque is correct, but your Coriolis and centrifugal
+      torques are half the correct torques
+    speed-in-place-of-acceleration: your code passes qd as the acceleration and 0 as the
+      velocity. Pass qd as the velocity and 0 as the acceleration
+    damping-added: your code adds the damping torque, 1.0 qd, but MuJoCo and task 4.8
+      treat this torque separately
     """
     holding, tau = (inverse_dynamics(J, G, v, STILL, g) for v in (STILL, qd))
     return {
@@ -51,8 +51,8 @@ row.reached_by(
 
 @row.wrong
 def rate_of_the_mass_matrix(J, G, qd, g):
-    """the velocity term is dM/dt qd; Lagrange's equations also subtract the gradient of
-    the kinetic energy in q"""
+    """your velocity term is dM/dt qd, but Lagrange's equations also subtract the
+    gradient of the kinetic energy with respect to q"""
     X = ad(np.cumsum(J * qd, axis=1).T)  # of each link
     J_rate = np.array([X_i @ S for X_i, S in zip(X, J.T)]).T
     G_rate = np.array([-X_i.T @ G_i - G_i @ X_i for X_i, G_i in zip(X, G)])

@@ -26,13 +26,12 @@ def _(rng):
 
 @row.wrongs
 def _(M, qd, masses, coms_world, g):
-    """speed-squared-too-early: qd is squared before the product with M; qd should be on
-      both sides of M => the answer with M qd^2
-    every-mass-everywhere: every link's centre is multiplied by the mass of the whole
-      arm
-    distance-for-height: the potential energy uses each centre's distance from the
-      origin as its height; only the component along g contributes => the answer with
-      |c| |g|
+    """speed-squared-too-early: your code squares qd before the product with M. The
+      vector qd should be on both sides of M
+    every-mass-everywhere: your code multiplies every link's height by the mass of the
+      whole arm. Use the mass of each link
+    distance-for-height: your potential energy uses the distance of each centre of mass
+      from the origin as its height, but only the component along g contributes
     """
     K, U = energy(M, qd, masses, coms_world, g)
     all_at_once = -coms_world.sum(axis=0) @ g  # of 1 kg at each centre

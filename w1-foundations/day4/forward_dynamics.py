@@ -35,9 +35,8 @@ def _(rng):
 
 @row.wrong(
     "torque-clipped",
-    "tau is clamped to the limits of the motors; use it unchanged",
-    "the acceleration with that torque",
-    "the lab's torques are within the limits",
+    "your code clamps tau to the motors' torque limits. Use tau unchanged",
+    hidden="the lab's torques are within the limits",
 )
 def _(M, bias, damping, qd, tau):
     return solve(M, np.clip(tau, -LIMITS, LIMITS) - bias - damping * qd)
@@ -45,20 +44,20 @@ def _(M, bias, damping, qd, tau):
 
 @row.wrongs
 def _(M, bias, damping, qd, tau):
-    """both-signs: bias and damping are added to tau; subtract them
-    armature-twice: the armature is added to M, which already contains it since task 4.3
-      => the acceleration with M + 0.1 on the diagonal
+    """both-signs: your code adds `bias` and the damping torque to tau. It should
+      subtract both
+    armature-twice: your code adds the armature to M, but M already contains the
+      armature (task 4.3)
     mass-of-the-step: your code uses M + h damping, the matrix of the simulator's
-      implicit step of h = 2 ms. The present acceleration needs M alone => the
-      acceleration with M + h damping
-    velocity-returned: the result is the velocity after a step of 2 ms, qd + h qdd;
-      return qdd => qd + 0.002 qdd
-    divided-entry-by-entry: the expression 1 / M inverts each entry; these reciprocals
-      are not the inverse of the matrix => the product with 1 / M
-    damping-not-divided: damping is subtracted after the division by M, but damping is
-      also a torque => the difference of the two
-    only-torque-divided: only the motor torque is divided by M; bias and damping are
-      also torques => the difference of the two
+      implicit step of h = 2 ms. The acceleration at this instant needs M alone
+    velocity-returned: your code returns qd + h qdd, the velocity after a step of 2 ms.
+      Return qdd
+    divided-entry-by-entry: your expression 1 / M inverts each entry, but the inverse of
+      a matrix does not consist of reciprocals
+    damping-not-divided: your code subtracts the damping torque after the division by M.
+      Subtract all torques before the division
+    only-torque-divided: your code divides only tau by M, but `bias` and the damping
+      torque are also torques. Subtract them from tau first
     """
     brake = damping * qd
     net = tau - bias - brake
@@ -80,15 +79,15 @@ def _(M, bias, damping, qd, tau):
 
 @row.wrong
 def half_solved(M, bias, damping, qd, tau):
-    """only the first of the two triangular systems is solved; M is L L^T, so solve with
-    L and then with L^T => the solution of L y = tau - bias - damping qd"""
+    """your code solves only the first of the two triangular systems. M is L L^T, so
+    solve with L and then with L^T"""
     return solve(np.linalg.cholesky(M), tau - bias - damping * qd)
 
 
 @row.wrong
 def one_factor_twice(M, bias, damping, qd, tau):
-    """the second triangular system also uses L; M is L L^T, so the second one needs L^T
-    => the solution with L twice"""
+    """your second triangular system uses L again. M is L L^T, so the second system
+    needs L^T"""
     L = np.linalg.cholesky(M)
     return solve(L, solve(L, tau - bias - damping * qd))
 

@@ -14,12 +14,13 @@ UPRIGHT = "the lab's robot stands upright"
 OTHER_GRAVITY = (
     Change(
         "gravity-typed-in",
-        "gravity is typed in with the wrong sign; use the argument {name}",
+        "your code contains gravity as the fixed number 9.81 with the wrong sign. Use "
+        "the argument {name}",
         typed_in(9.81),
     ),
     Change(
         "gravity-rounded",
-        "gravity is typed in as 9.8; use the argument {name}",
+        "your code contains gravity as the fixed number 9.8. Use the argument {name}",
         typed_in(-9.8),
     ),
 )
@@ -27,20 +28,21 @@ OTHER_GRAVITY = (
 OTHER_DIRECTION = (
     Change(
         "gravity-typed-in",
-        "gravity is typed in as (0, 0, -9.81); use the argument {name}, because the "
-        "robot may hang on a wall",
+        "your code contains gravity as the fixed vector (0, 0, -9.81). Use the "
+        "argument {name}, because the robot may be mounted on a wall",
         typed_in(-9.81),
         hidden=UPRIGHT,
     ),
     Change(
         "only-z-of-gravity",
-        "only the z component of {name} is used; {name} need not point down",
+        "your code uses only the z component of {name}, but {name} need not point down",
         lambda g: g * [0.0, 0.0, 1.0],
         hidden=UPRIGHT,
     ),
     Change(
         "length-of-gravity",
-        "only the norm of {name} is used, always downwards; use its direction as well",
+        "your code uses only the norm of {name} and always points it downwards. Use "
+        "its direction as well",
         lambda g: np.array([0.0, 0.0, -np.linalg.norm(g)]),
         hidden=UPRIGHT,
     ),

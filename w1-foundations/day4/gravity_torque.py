@@ -39,13 +39,12 @@ def torque(
 
 @row.wrongs
 def _(J, masses, coms_world, g):
-    """gravity-sign: the sign is wrong: the result is the torque that gravity exerts;
-      return the torque with which the motors balance it => its negative
-    velocity-of-the-origin: the lower half of J_space is the velocity of the point at
-      the world's origin. The weight acts at the centre of mass => the torque with v
-      instead of v + omega x c
-    omega-rows-for-v: the upper half of J_space is used as the velocity, but it is omega
-      => the torque with omega for v
+    """gravity-sign: your code returns the torque that gravity exerts. Return the motor
+      torque that balances it, which has the opposite sign
+    velocity-of-the-origin: your code uses the lower half of J_space, which is the
+      velocity of the point at the world's origin. The weight acts at the centre of mass
+    omega-rows-for-v: your code uses the upper half of J_space as the velocity, but this
+      half is omega
     """
     given = masses, coms_world, g
     tau = gravity_torque(J, *given)
@@ -57,18 +56,18 @@ def _(J, masses, coms_world, g):
     }
 
 
-@row.wrongs(redone="the torque with those joints")
+@row.wrongs
 def _(J, masses, coms_world, g):
-    """links-not-cut: each torque includes all links; a joint carries only its own link
-      and the later ones
-    own-link-only: each torque includes only the joint's own link; the joint also
-      carries all later links
-    own-link-left-out: each torque includes only the later links; the joint also carries
-      its own link
-    link-before-too: each torque also includes the link before the joint, which does not
-      move with the joint
-    links-on-the-wrong-side: each torque includes the links between the joint and the
-      base, which do not move with the joint
+    """links-not-cut: each torque in your code includes all links, but a joint carries
+      only its own link and the links after it
+    own-link-only: each torque in your code includes only the joint's own link, but the
+      joint also carries the links after it
+    own-link-left-out: each torque in your code includes only the links after the
+      joint's own link, but the joint also carries its own link
+    link-before-too: each torque in your code also includes the link before the joint,
+      which does not move with the joint
+    links-on-the-wrong-side: each torque in your code includes the links between the
+      joint and the base, which do not move with the joint
     """
     joint = np.arange(7)
     link = np.arange(7)[:, None]
@@ -86,8 +85,8 @@ def _(J, masses, coms_world, g):
 
 @row.wrong
 def centre_not_weighted(J, masses, coms_world, g):
-    """the mass beyond each joint is placed at the plain mean of the links' centres;
-    weight each centre by its mass => the torque with the mean of the centres"""
+    """your code uses the unweighted mean of the centres of mass beyond each joint.
+    Weight each centre of mass by the mass of its link"""
     tau = np.zeros(7)
     for i in range(7):
         c = coms_world[i:].mean(axis=0)

@@ -6,105 +6,93 @@ In a simulation the arm is let go, floats on the student's gravity torque, or is
 With a wrong sign it falls.
 """
 
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 
-from labkit.inspector import words
+from labkit.inspector import declared as ui
 from labkit.inspector.draw import joined
-from labkit.inspector.page import Page
-from labkit.inspector.tab import PLAYS, Tab
 from robo47 import dynamics, panda, simulate
 from robo47.checks import Array
 
 JOINTS = 7
-LET_GO = "let go"
-FLOAT = "float"
-PUSH = "push"
-BACK = "back"
+LET_GO, FLOAT, PUSH, BACK = "let go", "float", "push", "back"
 FORCE = np.array([0.0, 10.0, 0.0])  # newtons, in the world
 PUSHED = 0.5  # seconds
-HZ, RATE = 25.0, 100.0  # of the picture; of the controller
+RATE = 100.0  # of the controller
 HUGE = 1e4  # N m; with more the simulator reports an instability
 LENGTH = 0.02  # metres of an arrow per newton
 SAME = 1e-6  # kg m2 of an entry of M
-UNITS = {
-    "gravity_torque": "N m", "mass_matrix": "kg m2",
-    "link_inertias": "(kg, kg m or kg m2)",
-}  # fmt: skip
+
+bare = cache(partial(panda.load, "panda_nohand", drive="torque"))
 
 
-class Forces(Tab):
+class Forces(ui.Declared):
     """The gravity torques, the mass matrix, and the motion of the arm if released."""
 
     title = "Forces"
-    wide = True  # M needs the room of the matrices
+    library = dynamics
+    functions = {
+        "gravity_torque": "N m", "mass_matrix": "kg m2",
+        "link_inertias": "(kg, kg m or kg m2)",
+    }  # fmt: skip
+    solid = False  # the masses are inside of the links
+    hz = 25.0
 
-    def __init__(self, page: Page) -> None:
-        """Draw the centres of mass; nothing runs yet."""
-        super().__init__(page)
-        self.rig = panda.arm(page.model)
-        self.weights = panda.inertias(page.model)
-        entry = "panda_nohand" if page.model.nq == JOINTS else "panda"
-        self.model = panda.load(entry, drive="torque")
-        self.data = simulate.start(self.model, page.q[:JOINTS])
-        self.share = 1.0
-        self.force = 0 * FORCE
-        self.falls = False
-        self.begun = self.shown = page.q
-        self.own = page.own(dynamics, units=UNITS)
-        page.buttons([LET_GO, FLOAT, PUSH, BACK], self.press)
-        set_share = partial(setattr, self, "share")
-        page.slider(
-            "fraction of your gravity_torque", 0.0, 1.2, 1.0, set_share, unit=""
-        )
-        self.clock = page.html()
-        limits = simulate.limits(self.model)[1]
-        title = "gravity_torque; a mark is the torque that holds the arm"
-        self.bars = page.bars(panda.ARM_JOINTS, limits, "N m", title)
-        self.cells = page.html()
-        radii = 0.03 * np.cbrt(
-            self.rig.masses
-        )  # the volume is proportional to the mass
-        self.balls = [page.draw.sphere(np.zeros(3), r, "orange") for r in radii]
-        self.arrow = page.draw.arrows(np.zeros((1, 2, 3)), "red", 0.01)
-        self.loop = page.animate(self.show_arm, HZ, work=self.advance)
-        page.light("ee", {"ee"})
-        page.legend({"centre of mass of a link; the volume shows the mass": "orange"})
+    share = ui.slider("fraction of your gravity_torque", 0.0, 1.2, 1.0, "", then="keep")
+    does = ui.buttons(LET_GO, FLOAT, PUSH, BACK, then="press")
+    bars = ui.panel.bars(
+        panda.ARM_JOINTS, simulate.limits(bare())[1], "N m",
+        "gravity_torque; a mark is the torque that holds the arm",
+    )  # fmt: skip
+    cells = ui.panel.html()
+    arrow = ui.scene.arrows(ui.NOWHERE, "red", 0.01, legend="the push")
 
-    def press(self, name: str) -> None:
+    def prepare(self) -> None:
+        self.rig = panda.arm(self.page.model)
+        self.weights = panda.inertias(self.page.model)
+        hand = self.page.model.nq > JOINTS
+        self.model = panda.load("panda", drive="torque") if hand else bare()
+        radii = 0.03 * np.cbrt(self.rig.masses)  # the volume shows the mass
+        draw = self.page.draw
+        self.balls = [draw.sphere(np.zeros(3), r, "orange", 0.95) for r in radii]
+        self.data = simulate.start(self.model, self.page.q[:JOINTS])
+        self.begun = self.moved = self.page.q
+        self.legend("centre of mass of a link; the volume shows the mass", "orange")
+
+    def keep(self) -> None:
+        """Take the fraction from now on."""
+
+    def press(self) -> None:
         """Start a simulation where the last one began, or go back there."""
         self.loop.stop()
-        if not np.array_equal(self.page.q, self.shown):  # somebody moved it
+        if not np.array_equal(self.page.q, self.moved):  # somebody moved it
             self.begun = self.page.q
-        self.force = FORCE if name == PUSH else 0 * FORCE
-        self.falls = name == LET_GO
         self.data = simulate.start(self.model, self.begun[:JOINTS])
-        if name == BACK:
-            self.show_arm(0.0)
+        if self.does == BACK:
+            self.frame()
         else:
             self.loop.start()
 
-    def begin(self) -> None:
+    def restart(self) -> None:
         """Float on the student's torque: a right one holds the arm, a wrong one not."""
-        self.press(FLOAT)
-        self.loop.lasts = PLAYS
+        self.does = FLOAT
+        self.press()
+        self.loop.stop()
 
     def advance(self, seconds: float) -> None:
-        """Simulate until the next picture; it waits for the student's torques."""
-        if not np.array_equal(self.page.q, self.shown):  # somebody moved a slider
+        if not np.array_equal(self.page.q, self.moved):  # somebody moved a slider
             self.data = simulate.start(self.model, self.page.q[:JOINTS])
-        data = self.data
         push = None
-        if self.force.any() and seconds < PUSHED:
-            wrench = np.append(np.zeros(3), self.force)
+        if self.does == PUSH and seconds < PUSHED:
+            wrench = np.append(np.zeros(3), FORCE)
             push = simulate.push_at("attachment_site", wrench)
-        steps = round(RATE / HZ)
-        simulate.run(self.model, data, self.hold, steps / RATE, rate=RATE, push=push)
+        given = (self.model, self.data, self.hold, 1.0 / self.hz)
+        simulate.run(*given, rate=RATE, push=push)
 
     def hold(self, t: float, q: Array, qd: Array) -> Array:
         """Return a fraction of the student's gravity torque, or none."""
-        if self.falls:
+        if self.does == LET_GO:
             return np.zeros(JOINTS)
         wanted = self.share * self.own.gravity_torque(*self.pulled(q))
         return np.clip(wanted, -HUGE, HUGE)
@@ -114,60 +102,53 @@ class Forces(Tab):
         now = self.rig.at(q)
         return now.J_space, self.rig.masses, now.coms_world, self.rig.gravity
 
-    def show_arm(self, seconds: float) -> None:
-        """Move the arm to where the simulation is."""
-        self.shown = self.page.q
-        self.shown[:JOINTS] = self.data.qpos[:JOINTS]
-        self.page.move(self.shown)
-        t = self.data.time
-        speed = float(np.abs(self.data.qvel[:JOINTS]).max())
-        says = f"t = {t:.1f} s; largest joint velocity {speed:.2f} rad/s"
-        self.clock.content = words.line(says, "clock")
+    def frame(self, seconds: float = 0.0) -> None:
+        self.moved = self.page.q
+        self.moved[:JOINTS] = self.data.qpos[:JOINTS]
+        self.page.move(self.moved)
 
     def on_move(self, q: Array) -> None:
-        """Show masses and the push; ask for torques and M."""
         now = self.rig.at(q[:JOINTS])
         for ball, com in zip(self.balls, now.coms_world, strict=True):
             ball.position = com
-        pushing = self.loop.running and self.force.any() and self.data.time < PUSHED
+        pushing = self.loop.running and self.does == PUSH and self.data.time < PUSHED
         hand = now.T_world_ee[:3, 3]
         self.arrow.visible = bool(pushing)
-        if pushing:
-            self.arrow.points = joined([hand - LENGTH * self.force, hand])
-        self.page.job(lambda: self.ask(q[:JOINTS]), self.show)
+        self.arrow.points = joined([hand - LENGTH * FORCE, hand])
+        self.request()
 
-    def ask(self, q: Array) -> tuple[Array, Array, Array, Array]:
-        """Return the student's torques, the needed ones, the student's M, the right."""
+    def ask(self, fns, at) -> tuple[Array, Array]:
+        """Return the gravity torques and the mass matrix."""
+        q = at.q[:JOINTS]
         now = self.rig.at(q)
-        given = self.pulled(q)
-        G = self.own.link_inertias(now.T_links, *self.weights)
-        tau, M = self.own.many(
-            ("gravity_torque", *given),
+        G = fns.link_inertias(now.T_links, *self.weights)
+        return tuple(fns.many(
+            ("gravity_torque", *self.pulled(q)),
             ("mass_matrix", now.J_space, G, self.rig.armature),
-        )
-        return tau, now.gravity_torque, M, now.M
+        ))  # fmt: skip
 
-    def show(self, found: tuple[Array, Array, Array, Array]) -> None:
-        """Show the torques beside those needed, and M."""
-        tau, needed, M, right = found
-        self.bars.show(tau, needed)
-        self.cells.content = heat_map(M, np.abs(M - right) > SAME)
-        heaviest = int(np.argmax(np.abs(needed)))
-        self.page.say(
-            f"Largest torque: {needed[heaviest]:.1f} N m at "
-            f"{panda.ARM_JOINTS[heaviest]}. "
-            f"Smallest eigenvalue of M: {np.linalg.eigvalsh((M + M.T) / 2).min():.3f} "
-            "kg m2."
-        )
+    def show(self, yours, right) -> None:
+        self.bars.show(yours[0], right[0])
+        self.cells.content = heat_map(yours[1], np.abs(yours[1] - right[1]) > SAME)
+
+    def says(self, yours, right):
+        speed = float(np.abs(self.data.qvel[:JOINTS]).max())
+        drifts = "gravity_torque" if self.does == FLOAT and self.share == 1.0 else None
+        time = f"t = {self.data.time:.1f} s; "
+        yield f"{time}largest joint velocity {speed:.2f} rad/s", drifts
+        most = int(np.argmax(np.abs(right[0])))
+        name = panda.ARM_JOINTS[most]
+        yield f"Largest torque: {right[0][most]:.1f} N m at {name}.", None
+        M = (yours[1] + yours[1].T) / 2
+        least = np.linalg.eigvalsh(M).min()
+        of = "link_inertias mass_matrix"
+        yield f"Smallest eigenvalue of your M: {least:.3f} kg m2.", of
 
     def lost(self) -> None:
-        """Show no torques and no M, and the arm where it began."""
+        super().lost()
         if not self.loop.running:
             self.data = simulate.start(self.model, self.begun[:JOINTS])
-            self.show_arm(0.0)
-        self.page.say("")
-        self.bars.clear()
-        self.cells.content = self.clock.content = ""
+            self.frame()
 
 
 def heat_map(M: Array, wrong: Array | None = None) -> str:

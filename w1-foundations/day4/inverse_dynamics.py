@@ -52,17 +52,18 @@ def passes(
     return np.array([J[:, i] @ felt(np.array(F), i) for i in range(7)])
 
 
-@row.wrongs(redone="the torque with this mistake")
+@row.wrongs
 def _(J, G, qd, qdd, g):
-    """base-acceleration-sign: the acceleration of the base has the wrong sign: a base
-      at rest under gravity is equivalent to a base that accelerates against g
-    gravity-only: neither qd nor qdd is used: the result is the gravity torque alone
-    armature-added: the armature's torque, 0.1 qdd, is added; the task asks only for the
-      links
-    damping-added: the damping torque, 1.0 qd, is added; the task asks only for the
-      links
-    armature-and-damping-added: the torques of armature and damping, 0.1 qdd and 1.0 qd,
-      are added; the task asks only for the links
+    """base-acceleration-sign: your base acceleration has the wrong sign. A base at rest
+      under gravity is equivalent to a base that accelerates against g
+    gravity-only: your code uses neither qd nor qdd, so the result is only the gravity
+      torque
+    armature-added: your code adds the armature torque, 0.1 qdd, but the task includes
+      only the links
+    damping-added: your code adds the damping torque, 1.0 qd, but the task includes only
+      the links
+    armature-and-damping-added: your code adds the armature torque, 0.1 qdd, and the
+      damping torque, 1.0 qd, but the task includes only the links
     """
     given = {
         "base-acceleration-sign": (qd, qdd, -g),
@@ -83,40 +84,41 @@ def walked(J, G, qd, qdd, g, others):
     return {slug: partial(own, **{"base": lift(g), **x}) for slug, x in others.items()}
 
 
-@row.wrongs(redone="the torque with this mistake")
+@row.wrongs
 def _(J, G, qd, qdd, g):
-    """bracket-forgotten: the acceleration lacks ad(V) S qd: the screw of a joint that
-      moves with its link changes its direction
-    bracket-sign: ad(V) S qd has the wrong sign in the acceleration
-    bracket-twice: ad(V) S qd is added twice to the acceleration. It needs no factor 2,
-      because the wrench contributes the other half of the Coriolis force
-    speed-squared: the acceleration contains ad(V) S qd^2, but V already contains one of
-      the two velocities
-    bracket-not-transposed: the wrench contains ad(V) instead of its transpose; wrenches
-      transform with the transpose
-    velocity-product-forgotten: the wrench is G A alone; the term -ad(V)^T G V is
-      missing, because the inertia itself moves
-    velocity-of-the-link-before: the wrench uses V before the velocity of the link's own
-      joint is added
-    summed-from-the-base: the wrenches are summed from the base to the tip; a motor
+    """bracket-forgotten: your acceleration lacks the term ad(V) S qd, but a joint's
+      screw changes direction when it moves with its link
+    bracket-sign: your acceleration has the wrong sign in front of the term ad(V) S qd
+    bracket-twice: your code adds ad(V) S qd twice to the acceleration. The acceleration
+      needs no factor 2, because the wrench contributes the other half of the Coriolis
+      force
+    speed-squared: your acceleration contains ad(V) S qd^2, but V already contains one
+      of the two velocities
+    bracket-not-transposed: your wrench contains ad(V), but wrenches transform with the
+      transpose of ad(V)
+    velocity-product-forgotten: your wrench is G A alone. It should also contain
+      -ad(V)^T G V, because the inertia itself moves
+    velocity-of-the-link-before: your wrench uses V before your code adds the velocity
+      of the link's own joint
+    summed-from-the-base: your code sums the wrenches from the base to the tip. A motor
       carries the links beyond it, so start at the tip
-    every-link-for-all: each torque includes the wrenches on all seven links; a joint
-      carries only its own link and the later ones
-    moment-only: only the moments about the world's origin are used. Use all six
+    every-link-for-all: each torque in your code includes the wrenches on all seven
+      links, but a joint carries only its own link and the links after it
+    moment-only: your code uses only the moments about the world's origin. Use all six
       components of S, because the force also acts on an axis that does not pass through
       the origin
-    own-link-left-out: each torque includes only the wrenches on the later links; the
-      joint also carries its own link
-    accelerations-not-added: the acceleration of a link includes only its own joint; the
-      joints before it also move the link
-    nothing-added-outwards: V and A are reset at every link; they should accumulate
-      along the arm
-    gravity-at-every-link: gravity is added at the base and again at every link; the
-      recursion already propagates it from the base
-    bracket-not-transposed 2: the wrench contains ad(V) instead of minus its transpose;
+    own-link-left-out: each torque in your code includes only the wrenches on the links
+      after the joint's own link, but the joint also carries its own link
+    accelerations-not-added: your acceleration of each link includes only the link's own
+      joint, but the joints before this joint also move the link
+    nothing-added-outwards: your code resets V and A at every link. They should
+      accumulate along the arm
+    gravity-at-every-link: your code adds gravity at the base and again at every link,
+      but the recursion already propagates it from the base
+    bracket-not-transposed 2: your wrench contains ad(V) instead of -ad(V)^T, but
       wrenches transform with the transpose
-    gravity-at-every-link 2: gravity is added again at every link; the recursion already
-      propagates it from the base
+    gravity-at-every-link 2: your code adds gravity again at every link, but the
+      recursion already propagates it from the base
     """
     up = lift(g)
     others = {

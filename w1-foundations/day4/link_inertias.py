@@ -44,20 +44,20 @@ def carried(
 
 @row.wrongs
 def _(T_links, masses, coms, inertias):
-    """com-in-link-axes: the centre of mass is used in the link frame; transform it to
-      the world frame with T => the answer with c unchanged
-    com-turned-back: the centre of mass is rotated with R^T, which rotates from the
-      world frame to the link frame => the answer with R^T c + p
-    com-seen-from-the-link: the centre of mass is transformed with the inverse of T; T
-      maps the link frame to the world frame => the answer with R^T (c - p)
-    inertia-not-turned: the inertia about the centre of mass is still expressed in the
-      link frame; rotate it to the world frame => the answer with I unchanged
-    inertia-turned-back: the inertia is R^T I R, which rotates from the world frame to
-      the link frame => the answer with R^T I R
-    inertia-diagonal: only the diagonal of each inertia is used; the link frame need not
-      be aligned with the principal axes => the answer with the diagonal of I
-    R-transposed: R is transposed for the centre of mass and for the inertia; R^T
-      rotates from the world frame to the link frame => the answer with R^T for R
+    """com-in-link-axes: your code uses the centre of mass in the link frame. Transform
+      the centre of mass to the world frame with T
+    com-turned-back: your code rotates the centre of mass with R^T, which rotates from
+      the world frame to the link frame
+    com-seen-from-the-link: your code transforms the centre of mass with the inverse of
+      T, but T maps the link frame to the world frame
+    inertia-not-turned: your inertia about the centre of mass is still expressed in the
+      link frame. Rotate it to the world frame
+    inertia-turned-back: your rotated inertia is R^T I R, but R^T rotates from the world
+      frame to the link frame
+    inertia-diagonal: your code uses only the diagonal of each inertia matrix, but the
+      link frame need not be aligned with the principal axes
+    R-transposed: your code transposes R for the centre of mass and for the inertia, but
+      R^T rotates from the world frame to the link frame
     """
 
     def back(R, I):
@@ -78,20 +78,19 @@ def _(T_links, masses, coms, inertias):
 
 @row.wrongs
 def _(T_links, masses, coms, inertias):
-    """left-in-link-axes: T_links is not used, so each matrix is expressed in its link
-      frame => spatial_inertia of what was given
-    adjoint-not-inverted: the result is Ad(T) G Ad(T)^T. G maps a twist to a momentum,
-      so its right factor should map a twist from the world frame to the link frame
-    origin-for-com: the mass is placed at the link's origin; it belongs at the centre of
-      mass => the answer with p alone
-    poses-multiplied: the poses are multiplied along the arm, but each T of T_links is
-      already relative to the world => the answer with the product of the poses up to
-      each link
-    last-link-for-all: all seven matrices belong to link7. Does your loop fill the same
-      array for every link and append it each time? Create a new array => link7's matrix
-      seven times
-    already-summed: each matrix also contains the links beyond its own; each should
-      belong to one link => the sum from each link to the tip
+    """left-in-link-axes: your code does not use T_links, so each matrix is expressed in
+      its link frame
+    adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. G maps a twist to a
+      momentum, so the factor on its right should map a twist from the world frame to
+      the link frame
+    origin-for-com: your code places the mass at the link's origin. Place the mass at
+      the centre of mass
+    poses-multiplied: your code multiplies the poses along the arm, but each T of
+      T_links is already relative to the world
+    last-link-for-all: all seven of your matrices belong to link7. Does your loop
+      overwrite one array and append it for every link? Create a new array each time
+    already-summed: each of your matrices also includes the links after its own link.
+      Each matrix should belong to one link
     """
 
     def placed(T, c=coms):
@@ -111,11 +110,11 @@ def _(T_links, masses, coms, inertias):
 
 @row.wrong
 def pose_of_the_link_before(T_links, *body):
-    """each link uses the pose of the link before it: T_links[0] belongs to link1 => the
-    answer with the identity for link1, its pose for link2 and so on"""
+    """your code uses the pose of the previous link for each link. T_links[0] belongs to
+    link1"""
     return link_inertias([np.eye(4), *T_links[:-1]], *body)
 
 
-row.reached_by("spatial_inertia", "in each link's matrix ")
+row.reached_by("spatial_inertia", "in each link's matrix, ")
 
 row.at_least_0(masses="a mass")

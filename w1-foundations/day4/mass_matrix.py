@@ -28,10 +28,10 @@ def links(J, G, counts):
 
 @row.wrongs
 def _(J, G, armature):
-    """armature-per-link: the armature is added once per link; each rotor contributes
-      once => M with seven times the armature
-    mirrored-with-the-diagonal: M and its transpose are added, which doubles the
-      diagonal => M with twice its diagonal
+    """armature-per-link: your code adds the armature once per link, but each rotor
+      contributes only once
+    mirrored-with-the-diagonal: your code adds M and its transpose, which doubles the
+      diagonal. Mirror only the off-diagonal entries
     """
     M = mass_matrix(J, G, armature)
     return {
@@ -41,16 +41,16 @@ def _(J, G, armature):
 
 
 def cut(J, G, armature):
-    """columns-not-cut: the Jacobian of each link contains all columns; the joints after
-      a link do not move it
-    own-joint-left-out: the Jacobian of each link lacks the column of the link's own
+    """columns-not-cut: your Jacobian of each link contains all columns, but the joints
+      after a link do not move this link
+    own-joint-left-out: your Jacobian of each link lacks the column of the link's own
       joint, which also moves the link
-    next-joint-too: the Jacobian of each link contains one column too many: the next
-      joint does not move the link
-    columns-cut-on-the-wrong-side: the Jacobian of each link lacks the joints before the
-      link, but these joints move it
-    own-joint-only: the Jacobian of each link contains only the link's own joint; all
-      joints before it also move the link
+    next-joint-too: your Jacobian of each link contains one column too many, because the
+      next joint does not move the link
+    columns-cut-on-the-wrong-side: your Jacobian of each link lacks the columns of the
+      joints before the link, but these joints move the link
+    own-joint-only: your Jacobian of each link contains only the column of the link's
+      own joint, but all joints before this joint also move the link
     """
     joint = np.arange(7)
     link = np.arange(7)[:, None]
@@ -64,21 +64,19 @@ def cut(J, G, armature):
     return {slug: links(J, G, one) + np.diag(armature) for slug, one in counts.items()}
 
 
-row.wrongs(cut, "M with those columns")
+row.wrongs(cut)
 
 
 @row.wrongs
 def _(J, G, armature):
-    """corners-swapped: the off-diagonal blocks of G have the wrong sign. M is still
-      symmetric and positive definite => M with those signs
-    corners-dropped: rotation and translation are added separately, without the
-      off-diagonal blocks of G, which couple them => M without the corners of G
-    angular-half-only: only the angular half of J_space is used; the links' linear
-      velocities also contribute => M from the upper half of J_space and the top left
-      block of G
-    linear-half-only: only the linear half of J_space and the masses are used; a
-      rotating link also has rotational energy => M from the lower half of J_space and
-      the lower right block of G
+    """corners-swapped: the off-diagonal blocks of your G have the wrong sign. M is
+      still symmetric and positive definite, but it is wrong
+    corners-dropped: your code adds the rotational and translational parts separately
+      and omits the off-diagonal blocks of G, which couple them
+    angular-half-only: your code uses only the angular half of J_space, but the links'
+      linear velocities also contribute
+    linear-half-only: your code uses only the linear half of J_space and the masses, but
+      a rotating link also has rotational energy
     """
     flip = np.diag([1, 1, 1, -1, -1, -1])
     upper = np.array([1, 1, 1, 0, 0, 0])[:, None]
@@ -93,8 +91,8 @@ def _(J, G, armature):
 
 @row.wrong
 def not_summed_back(J, G, armature):
-    """each entry includes only one link; a joint carries all links distal to it => M
-    from one link per entry"""
+    """each entry in your code includes only one link, but a joint carries all links
+    after it"""
     M = np.diag(armature)
     for i in range(7):
         for j in range(7):

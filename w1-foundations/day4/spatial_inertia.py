@@ -28,17 +28,15 @@ def of_blocks(a, b, c, d):
 
 @row.wrongs
 def _(m, c, I):
-    """parallel-axis-sign: the parallel-axis term of the upper left block has the wrong
+    """parallel-axis-sign: the parallel-axis term of your upper left block has the wrong
       sign. It should be m [c] [c]^T, which equals -m [c] [c] because [c] is
-      skew-symmetric => the matrix with I + m [c] [c]
-    outer-product-for-skew: the upper left block contains c c^T instead of [c] [c]^T,
-      but a mass resists rotation about the axes that are far from it => the matrix with
-      I + m c c^T
-    distance-in-all-directions: the upper left block uses |c|^2 for all three axes; only
-      the distance from an axis contributes to the inertia about it => the matrix with I
-      + m |c|^2
-    products-of-inertia-sign: the off-diagonal entries of the inertia have the wrong
-      sign; the argument is already the inertia matrix, so add it unchanged
+      skew-symmetric
+    outer-product-for-skew: your upper left block contains c c^T instead of [c] [c]^T,
+      but a mass resists rotation about the axes that are far from it
+    distance-in-all-directions: your upper left block uses |c|^2 for all three axes, but
+      only the distance from an axis contributes to the inertia about it
+    products-of-inertia-sign: the off-diagonal entries of your inertia have the wrong
+      sign. The argument is already the inertia matrix, so use its entries unchanged
     """
     C = skew(c)
     own = np.diag(np.diag(I))
@@ -54,26 +52,24 @@ def _(m, c, I):
 
 @row.wrongs
 def _(m, c, I):
-    """about-the-centre-of-mass: c is not used, so the matrix is about the centre of
-      mass; about the origin three of the four blocks contain c => the matrix with I and
-      m on its diagonal and nothing else
-    corners-alike: the two off-diagonal blocks are equal; the matrix is symmetric, so
-      one should be the transpose of the other => the matrix with m [c] twice
-    corners-alike 2: the two off-diagonal blocks are equal; the matrix is symmetric, so
-      one should be the transpose of the other => the matrix with m [c]^T twice
-    corners-swapped: the two off-diagonal blocks are swapped. The matrix is still
-      symmetric and positive definite, but the momentum has the wrong direction => the
-      matrix with [c] and [c]^T swapped
-    corners-empty: the two off-diagonal blocks are 0. They couple rotation and
-      translation, and are 0 only about the centre of mass => the matrix with 0 there
-    one-corner-empty: one off-diagonal block is 0; the matrix is symmetric, so each of
-      the two blocks is the transpose of the other => the matrix with 0 there
-    mass-forgotten-in-the-corners: the two off-diagonal blocks contain [c] without the
-      mass => the matrix without m there
-    mass-everywhere: the lower right block has the mass in all nine entries; only the
-      diagonal should contain it => the matrix with m in all of them
-    blocks-v-omega: the blocks are in the order (v; omega); omega comes first, as in the
-      Jacobian
+    """about-the-centre-of-mass: your code does not use c, so the matrix is about the
+      centre of mass. The matrix about the origin contains c in three of its four blocks
+    corners-alike: your two off-diagonal blocks are equal. The matrix is symmetric, so
+      one block should be the transpose of the other
+    corners-alike 2: your two off-diagonal blocks are equal. The matrix is symmetric, so
+      one block should be the transpose of the other
+    corners-swapped: your code swaps the two off-diagonal blocks. The matrix is still
+      symmetric and positive definite, but the momentum has the wrong direction
+    corners-empty: your two off-diagonal blocks are 0. These blocks couple rotation and
+      translation, and they are 0 only about the centre of mass
+    one-corner-empty: your matrix has one off-diagonal block that is 0. The matrix is
+      symmetric, so each off-diagonal block should be the transpose of the other
+    mass-forgotten-in-the-corners: your two off-diagonal blocks contain [c] without the
+      mass. They should contain m [c]
+    mass-everywhere: your lower right block has the mass in all nine entries. Only the
+      diagonal should contain the mass
+    blocks-v-omega: your blocks are in the order (v; omega), but omega comes first, as
+      in the Jacobian
     """
     C = skew(c)
     M = m * ONE

@@ -37,7 +37,7 @@ def forces(functions):
 
 def fallen(tab, seconds=1.0):
     """Return how far the hand is from where it was after a while of floating."""
-    tab.press("float")
+    tab.sets("does", "press")("float")
     for _ in range(round(25 * seconds)):
         tab.advance(1.0)
     hand = [tab.rig.at(q).T_world_ee[:3, 3] for q in (panda.READY_Q, tab.data.qpos)]

@@ -37,28 +37,31 @@ def _(rng):
 
 @row.wrongs
 def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """gains-outside-M: the PD terms are added after the product with M. The arm still
-      tracks well, but joints with different inertias respond differently, and errors do
-      not decay as designed
-    damping-forgotten: the damping torque is missing; bias does not contain it, because
-      MuJoCo treats damping as a passive force
-    friction-of-the-error: damping multiplies ed; it should multiply the measured
-      velocity qd
-    friction-of-the-reference: damping multiplies the velocity of the reference, qd +
-      ed; it should multiply the measured velocity qd
-    M-forgotten: M is missing, so an acceleration is added to torques
-    bias-forgotten: bias is missing, so the PD terms have to balance gravity and the
-      Coriolis torque
-    bias-sign: bias has the wrong sign; bias is the torque that the motors must supply
-    everything-through-M: bias and the damping torque are multiplied by M, but they are
-      already torques
-    reference-outside-M: qdd_ref is added after the product with M; qdd_ref is an
-      acceleration, so multiply it by M
-    measured-velocity-damped: the derivative term is -kd qd, so it also brakes the
-      motion of the reference; use kd ed
-    armature-twice: the armature, 0.1 kg m2, is added to M, but M already contains it
-    bias-alone-at-the-goal: where e is 0 only bias is returned, but the arm may be
-      moving there
+    """gains-outside-M: your code adds the PD terms after the product with M. The arm
+      still tracks well, but joints with different inertias respond differently, and
+      errors do not decay as designed
+    damping-forgotten: your code omits the damping torque. The argument `bias` does not
+      contain it, because MuJoCo treats damping as a passive force
+    friction-of-the-error: your code multiplies `damping` by ed. It should multiply
+      `damping` by the measured velocity qd
+    friction-of-the-reference: your code multiplies `damping` by qd + ed, the velocity
+      of the reference. It should multiply `damping` by the measured velocity qd
+    M-forgotten: your code omits M, so it adds an acceleration to torques. Multiply the
+      acceleration by M
+    bias-forgotten: your code omits `bias`, so the PD terms have to balance gravity and
+      the Coriolis torque
+    bias-sign: your bias term has the wrong sign. The argument `bias` is the torque that
+      the motors must supply
+    everything-through-M: your code multiplies `bias` and the damping torque by M, but
+      both are already torques
+    reference-outside-M: your code adds qdd_ref after the product with M, but qdd_ref is
+      an acceleration. Multiply it by M
+    measured-velocity-damped: your derivative term is -kd qd, so it also brakes the
+      motion of the reference. Use kd ed
+    armature-twice: your code adds the armature, 0.1 kg m2, to M, but M already contains
+      it
+    bias-alone-at-the-goal: where e is 0, your code returns only `bias`, but the arm may
+      still be moving. Use the same formula everywhere
     """
     rub = damping * qd
     springs = kd * ed + kp * e

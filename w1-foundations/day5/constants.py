@@ -217,7 +217,8 @@ def under_load(omega=LAB.OMEGA, mass=1.0, wait=1.5, rate=LAB.RATE, damping=1.0):
 @numbers.add(
     "the loop is unstable from", "{:.0f} rad/s",
     rate=between(0.51, 0.54, "omega T is limited, so about half; slightly more, "
-                             "because a period contains more steps (next row)", to=125.0),
+                             "because a period contains more steps (next row)",
+                             to=125.0),
     step=between(1.0, 1.12, "omega T is 0.90 with 2 steps per period, 0.94 with 4",
                  to=0.001),
     damping=times(1.0, "the implicit step's hD is a thousandth of M", within=0.01),

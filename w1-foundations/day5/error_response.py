@@ -23,7 +23,7 @@ def starts_elsewhere(case: Case) -> Finding | None:
     t = case.arguments[0]
     if np.abs(case.S[t == 0.0] - 1.0).max() < 1e-8:
         return None
-    says = "At t = 0 the error should be 1, but for some zeta your output is not 1."
+    says = "For some zeta, your error at t = 0 is not 1. It should always start at 1."
     return Finding("does-not-start-at-one", says)
 
 
@@ -71,19 +71,19 @@ def _(rng):
 
 @row.wrongs
 def _(t, omega, zeta):
-    """one-formula-for-all: the formula for zeta = 1 is used for every zeta, with zeta
-      omega as its frequency. For zeta below 1 the error should oscillate, and for zeta
-      above 1 it is a sum of two exponentials
-    envelope-alone: the curve is only the envelope e^(-zeta omega t). The error should
+    """one-formula-for-all: your code uses the formula for zeta = 1 for every zeta, with
+      zeta omega as its frequency. For zeta below 1 the error should oscillate, and for
+      zeta above 1 it is a sum of two exponentials
+    envelope-alone: your curve is only the envelope e^(-zeta omega t). The error should
       start at rest, but this curve starts with a nonzero derivative
-    envelope-of-omega: the curve is e^(-omega t) for every zeta. The error should start
+    envelope-of-omega: your curve is e^(-omega t) for every zeta. The error should start
       at rest, but this curve starts with a nonzero derivative
-    half-the-damping: the curve belongs to half the damping ratio; in the equation the
-      factor of ed is 2 zeta omega
-    output-in-place-of-error: the curve rises from 0 to 1, as the step response of the
+    half-the-damping: your curve belongs to half the damping ratio. In the error
+      equation, the factor of ed is 2 zeta omega
+    output-in-place-of-error: your curve rises from 0 to 1, as the step response of the
       joint does. The error is 1 minus the step response
-    omega-in-turns: omega is multiplied by 2 pi as if it were in turns per second, but
-      it is in rad/s
+    omega-in-turns: your code multiplies omega by 2 pi as if it were in revolutions per
+      second, but omega is in rad/s
     """
     return {
         "one-formula-for-all": (1 + zeta * omega * t) * np.exp(-zeta * omega * t),
@@ -97,13 +97,12 @@ def _(t, omega, zeta):
 
 @row.wrongs(hidden=HIDDEN)
 def _(t, omega, zeta):
-    """window-around-one: the formula for zeta = 1 is also used for other zeta near 1,
-      where it is wrong. Use it only if zeta differs from 1 by no more than rounding,
-      for example 1e-9
-    time-from-the-first: time is measured from t[0]; the error should be 1 at t = 0,
-      whether or not t contains 0
-    first-entry-one: the first entry of the answer is always 1; the error should be 1
-      only at t = 0
+    """window-around-one: your code also uses the formula for zeta = 1 for values of
+      zeta near 1, where it is not accurate. Use this formula only if zeta equals 1 up
+      to rounding, for example within 1e-9
+    time-from-the-first: your code measures time from t[0]. The error should be 1 at t =
+      0, even if t does not contain 0
+    first-entry-one: your first entry is always 1. The error should be 1 only at t = 0
     """
     near = 1.0 if abs(zeta - 1.0) < 0.05 else zeta
     return {
@@ -115,16 +114,17 @@ def _(t, omega, zeta):
 
 @row.wrongs
 def _(t, omega, zeta):
-    """slow-exponential-alone: for zeta above 1 only the slow exponential is used; the
-      error should start at rest, and this curve does not
-    both-halves: for zeta above 1 both exponentials have the weight 1/2; the error
-      should start at rest, and this curve does not
-    weights-swapped: for zeta above 1 the weights of the two exponentials are swapped
-    weights-summed: for zeta above 1 the curve does not start at rest. The weighted
-      exponentials are added and divided by the sum of their rates, which is also what
-      the inverse factor of sinh gives
-    critical-above-one: for zeta above 1 the curve for zeta = 1 is returned; more
-      damping makes the decay slower
+    """slow-exponential-alone: for zeta above 1 your code uses only the slow
+      exponential, so the error does not start at rest
+    both-halves: for zeta above 1 both of your exponentials have the weight 1/2, so the
+      error does not start at rest
+    weights-swapped: for zeta above 1 the weights of your two exponentials are swapped,
+      so the error does not start at rest
+    weights-summed: for zeta above 1 your curve does not start at rest. With two
+      exponentials, subtract the weighted terms and the rates instead of adding them.
+      With cosh and sinh, invert the factor of sinh
+    critical-above-one: for zeta above 1 your code returns the curve for zeta = 1, but
+      the decay should be slower for a larger zeta
     """
     above = zeta if zeta > 1.0 else 2.0  # below, the library answers
     half_gap = omega * np.sqrt(above**2 - 1.0)

@@ -26,16 +26,16 @@ def _(rng):
 
 @row.wrongs
 def _(e, ed, kp, kd, g_at_q):
-    """gravity-sign: the gravity torque has the wrong sign; g_at_q is the torque that
-      the motors must supply to hold the arm
-    gravity-through-the-gain: the gravity torque is multiplied by kp, but it is already
-      a torque: add it to the PD torque
-    gravity-at-the-goal-only: where e is 0 only the gravity torque is returned, and
-      elsewhere only the PD torque; add both everywhere
-    gravity-at-rest-only: the gravity torque is added only where ed is 0; gravity also
-      acts on a moving arm
-    nothing-at-the-goal: where e is 0 the result is 0; the motors must also hold the
-      weight at the goal
+    """gravity-sign: your gravity torque has the wrong sign. The argument `g_at_q` is
+      the torque that the motors must supply to hold the arm
+    gravity-through-the-gain: your code multiplies the gravity torque by kp, but gains
+      apply only to errors. Add the gravity torque to the PD torque
+    gravity-at-the-goal-only: your code returns only the gravity torque where e is 0,
+      and only the PD torque elsewhere. It should always return the sum of both
+    gravity-at-rest-only: your code adds the gravity torque only where ed is 0, but
+      gravity also acts on a moving arm
+    nothing-at-the-goal: your result is 0 where e is 0, but the motors must also support
+      the weight of the arm at the goal
     """
     springs = kp * e + kd * ed
     away = np.any(e)
@@ -48,7 +48,7 @@ def _(e, ed, kp, kd, g_at_q):
     }
 
 
-row.reached_by("pd_torque", "the gravity torque is correct, but in the PD torque ")
+row.reached_by("pd_torque", "your gravity torque is correct, but in the PD torque ")
 
 
 @row.right  # Gravity as an offset of the goal.

@@ -8,30 +8,23 @@ from collections.abc import Callable
 
 import numpy as np
 
+from labkit.inspector import declared as ui
 from labkit.inspector import words
 from labkit.inspector.own import Own
-from labkit.inspector.page import Page
-from labkit.inspector.tab import PLAYS, Tab
 from robo47 import control, panda, references, scenes, simulate
 from robo47.arm import Arm
 from robo47.checks import Array
 from robo47.panda import ARM_JOINTS, READY_Q
 
 SWING, NUDGE, STOP = "swing", "0.1 rad off", "stop"
-HZ, RATE = 25.0, 250.0  # pictures a second; torques a second, as in the lab
+RATE = 250.0  # torques a second, as in the lab
 KP, KD = 100.0, 20.0  # of PD control alone, as in the lab
 KI, CLAMP = 4000.0, 0.02  # 1/s3, rad s, as in the lab
-SAME = 1e-6  # relative difference of two limits of omega
 LEAST = 1e-3  # mrad, at the foot of the logarithmic axis
 REACH = np.array([0.5, 0.4, 0.5, 0.4, 0.6, 0.5, 0.6])
 E0 = 0.1 * np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])
 HUGE = 1e4  # N m; with more the simulator reports an instability
 CHATTER = 0.2  # fraction of the torques at which a motor switches between its limits
-UNITS = {
-    **dict.fromkeys(("pd_torque", "gravity_pd", "computed_torque", "saturate"), "N m"),
-    "pd_gains": "(1/s2 or 1/s)", "error_response": "of the first error",
-    "max_stable_omega": "rad/s", "pid_step": "(rad/s2 or rad s)",
-}  # fmt: skip
 Law = Callable[..., Array]
 
 
@@ -88,92 +81,82 @@ def reference(t: float, swing: bool) -> tuple[Array, Array, Array]:
     return (made or references.hold(READY_Q))(t)
 
 
-class Control(Tab):
+def loaded(edit=None):
+    """Return the arm with motors, with an edit of its scene."""
+    return panda.load("panda_nohand", drive="torque", edit=edit)
+
+
+class Control(ui.Declared):
     """The reference as a ghost, the error as it comes, the torques against limits."""
 
     title = "Control"
-    wide = True
+    library = control
+    functions = {
+        **dict.fromkeys(("pd_torque", "gravity_pd", "computed_torque"), "N m"),
+        "saturate": "N m", "pd_gains": "(1/s2 or 1/s)", "max_stable_omega": "rad/s",
+        "error_response": "of the first error", "pid_step": "(rad/s2 or rad s)",
+    }  # fmt: skip
+    hz = 25.0
 
-    def __init__(self, page: Page) -> None:
-        """Stand at ready, computed torque, omega 20."""
-        super().__init__(page)
-        self.models = [
-            panda.load("panda_nohand", drive="torque", edit=edit)
-            for edit in (None, scenes.hang_kilogram)
-        ]
+    controller = ui.choice("controller", LAWS, then="choose")
+    omega = ui.slider("omega", 2, 300, 20.0, "rad/s", 1, then="tell")
+    heavy = ui.tick("hang 1 kg on the hand", then="hang")
+    does = ui.buttons(SWING, NUDGE, STOP, then="press")
+    plot = ui.panel.plot(
+        ["measured", "predicted"], y="largest error (mrad)", least=LEAST
+    )
+    bars = ui.panel.bars(
+        ARM_JOINTS, simulate.limits(loaded())[1], "N m", "wanted torque"
+    )
+    ghost = ui.scene.ghost("blue", legend="the reference")
+
+    def prepare(self) -> None:
+        self.models = [loaded(), loaded(scenes.hang_kilogram)]
         self.arm = panda.arm(self.models[0])  # the model never knows of the load
-        self.law = computed
-        self.omega = 20.0
-        self.heavy = 0
-        self.swing = False
-        self.known = (0.0, 0)
-        self.asked_of = 0  # the file whose max_stable_omega is shown
-        self.kp_kd = np.zeros(2)
+        self.known, self.kp_kd = (0.0, 0), np.zeros(2)
         self.limits = simulate.limits(self.models[0])[1]
         steps = simulate.steps_per_period(self.models[0], RATE)
         h = float(self.models[0].opt.timestep)
         self.breaks_at = float(control.max_stable_omega(h, steps))
-        self.stiffest = np.nan  # the student's, of a step of 4 ms
-        self.own = page.own(control, units=UNITS)
-        self.ghost = page.draw.ghost("blue")
-        page.choice("controller", list(LAWS), self.choose)
-        page.slider("omega", 2, 300, 20, self.tune, unit="rad/s", step=1)
-        page.tick("hang 1 kg on the hand", self.hang)
-        page.buttons([SWING, NUDGE, STOP], self.press)
-        self.clock, self.breaks = page.html(), page.html()
-        curves = ["measured", "predicted"]
-        self.plot = page.plot(curves, y="largest error (mrad)", least=LEAST)
-        self.bars = page.bars(ARM_JOINTS, self.limits, "N m", "wanted torque")
-        self.loop = page.animate(self.step, HZ, work=self.work)
-        page.light("ee", {"ee"})
-        page.legend({"the simulated arm": "grey", "the reference": "blue"})
-        self.restart(READY_Q)
+        self.settle(READY_Q)
 
-    def choose(self, name: str) -> None:
+    def choose(self) -> None:
         """Take another controller, from now on."""
-        self.law = LAWS[name]
         self.integral = np.zeros(7)
 
-    def tune(self, omega: float) -> None:
-        """Make the springs stiffer or softer, critically damped."""
-        self.omega = omega
-        self.say_stiffest(self.stiffest)
+    def hang(self) -> None:
+        """Add 1 kg or take it off, and go on from where the arm is."""
+        q, qd = self.data.qpos[:7], self.data.qvel[:7]
+        self.data = simulate.start(self.models[self.heavy], q, qd)
 
-    def say_stiffest(self, stiffest: float) -> None:
-        """Say from which omega on the loop breaks, by the student's function."""
-        self.stiffest = stiffest
-        right = float(control.max_stable_omega(1.0 / RATE))
-        broken = self.omega > self.breaks_at and self.law not in (springs, with_gravity)
-        wrong = abs(stiffest - right) > SAME * right
-        says = (
-            f"with a torque every 4 ms the loop is unstable from {int(self.breaks_at)} "
-            f"rad/s on; your max_stable_omega(0.004) returns {stiffest:.0f}"
-        )
-        if wrong:
-            says += f", and the library's returns {right:.0f}"
-        kind = "bad" if broken or wrong else ""
-        self.breaks.content = words.line(says, "stiffest", kind)
+    def press(self) -> None:
+        """Start one of the two runs, or stop."""
+        self.loop.stop()
+        if self.does != STOP:
+            self.settle(READY_Q if self.does == SWING else READY_Q - E0)
+            self.loop.start()
+
+    def restart(self) -> None:
+        """Let go 0.1 rad off."""
+        self.does = NUDGE
+        self.settle(READY_Q - E0)
+
+    def settle(self, q: Array) -> None:
+        """Put the arm at rest somewhere, time at 0, the plot empty."""
+        self.data = simulate.start(self.models[self.heavy], q)
+        self.integral = np.zeros(7)
+        self.since = 0
+        self.wanted: list[Array] = []
+        self.plot.clear()
+        self.move()
 
     def on_move(self, q: Array) -> None:
-        """Ask from which omega on the loop breaks, once for a file."""
-        if self.asked_of != self.own.version or not self.own.fresh():
-            self.page.job(lambda: self.own.max_stable_omega(1.0 / RATE), self.heard)
+        if not self.loop.running:
+            self.request()
 
-    def heard(self, stiffest: Array) -> None:
-        """Keep the student's stiffest omega."""
-        self.asked_of = self.own.version
-        self.say_stiffest(float(stiffest))
-
-    def begin(self) -> None:
-        """Let go 0.1 rad off."""
-        self.press(NUDGE)
-        self.loop.lasts = PLAYS
-
-    def lost(self) -> None:
-        """Show no torques and no error."""
-        self.bars.clear()
-        self.plot.clear()
-        self.clock.content = self.breaks.content = ""
+    def ask(self, fns, at) -> float:
+        """Return from which omega on the loop breaks."""
+        return float(fns.max_stable_omega(1.0 / RATE))
 
     def gains(self) -> Array:
         """Return the student's gains for omega, asked when it or the file changes."""
@@ -182,64 +165,59 @@ class Control(Tab):
             self.known, self.kp_kd = key, self.own.pd_gains(self.omega, 1.0)
         return self.kp_kd
 
-    def hang(self, heavy: bool) -> None:
-        """Add 1 kg or take it off, and go on from where the arm is."""
-        self.heavy = int(heavy)
-        q, qd = self.data.qpos[:7], self.data.qvel[:7]
-        self.data = simulate.start(self.models[self.heavy], q, qd)
-
-    def press(self, name: str) -> None:
-        """Start one of the two runs, or stop."""
-        self.loop.stop()
-        if name == STOP:
-            return
-        self.swing = name == SWING
-        self.restart(READY_Q if self.swing else READY_Q - E0)
-        self.loop.start()
-
-    def restart(self, q: Array) -> None:
-        """Put the arm at rest somewhere, time at 0, the plot empty."""
-        self.data = simulate.start(self.models[self.heavy], q)
-        self.integral = np.zeros(7)
-        self.since = 0
-        self.asked: list[Array] = []
-        self.plot.clear()
-        self.show(reference(0.0, self.swing)[0])
-
-    def work(self, seconds: float) -> None:
-        """Simulate one frame's time; it waits for the student's torques."""
-        model = self.models[self.heavy]
-        simulate.run(model, self.data, self.torque, 1.0 / HZ, rate=RATE)
+    def advance(self, seconds: float) -> None:
+        model, law = self.models[self.heavy], LAWS[self.controller]
+        simulate.run(model, self.data, self.torque, 1.0 / self.hz, rate=RATE)
         self.predicted = np.nan
-        if self.law is computed and not self.swing and not self.heavy:
+        if law is computed and self.does != SWING and not self.heavy:
             t = np.array([self.since / RATE])
             decay = self.own.error_response(t, self.omega, 1.0)
             self.predicted = 100.0 * float(decay[0])
 
     def torque(self, t: float, q: Array, qd: Array) -> Array:
         """Return the student's torque, and keep what it was before its limits."""
-        ref = reference(self.since / RATE, self.swing)
-        wanted = self.law(self.own, self.arm, q, qd, ref, self)
+        ref = reference(self.since / RATE, self.does == SWING)
+        wanted = LAWS[self.controller](self.own, self.arm, q, qd, ref, self)
         given = self.own.saturate(wanted, self.limits)
-        self.asked, self.since = [*self.asked[-49:], wanted], self.since + 1
+        self.wanted, self.since = [*self.wanted[-49:], wanted], self.since + 1
         return np.clip(given, -HUGE, HUGE)
 
-    def step(self, seconds: float) -> None:
-        """Show what came of it."""
-        t = self.since / RATE
-        ref = reference(t, self.swing)
-        measured = 1e3 * float(np.abs(ref[0] - self.data.qpos[:7]).max())
-        self.bars.show(self.asked[-1])
-        self.plot.add(t, [measured, self.predicted])
-        chatter = self.chatter()
-        off = words.digits(measured) if measured > LEAST else f"under {LEAST:g}"
-        says = f"t = {t:.2f} s; largest error {off} mrad{chatter}"
-        self.clock.content = words.line(says, "clock", "bad" if chatter else "")
-        self.show(ref[0])
+    def frame(self, seconds: float) -> None:
+        self.bars.show(self.wanted[-1])
+        self.plot.add(self.since / RATE, [self.measured(), self.predicted])
+        self.move()
+
+    def move(self) -> None:
+        """Move the arm to where the simulation is, the ghost to the reference."""
+        q = self.page.q
+        q[:7] = self.data.qpos[:7]
+        self.page.move(q)
+        wanted = reference(self.since / RATE, self.does == SWING)[0]
+        self.ghost.pose(self.page.links(wanted))
+
+    def measured(self) -> float:
+        """Return the largest error now, mrad."""
+        wanted = reference(self.since / RATE, self.does == SWING)[0]
+        return 1e3 * float(np.abs(wanted - self.data.qpos[:7]).max())
+
+    def says(self, stiffest: float, right: float):
+        if self.wanted:
+            chatter, off = self.chatter(), self.measured()
+            told = words.digits(off) if off > LEAST else f"under {LEAST:g}"
+            says = f"t = {self.since / RATE:.2f} s; largest error {told} mrad{chatter}"
+            yield says, False if chatter else None
+        returns = f"your max_stable_omega(0.004) returns {stiffest:.0f} rad/s"
+        returns += f" (the library's {right:.0f})" if stiffest != right else ""
+        laws = (springs, with_gravity)
+        over = self.omega > self.breaks_at and LAWS[self.controller] not in laws
+        yield (
+            f"With a torque every 4 ms the loop is unstable from {int(self.breaks_at)} "
+            f"rad/s on; {returns}.", False if over else "max_stable_omega",
+        )  # fmt: skip
 
     def chatter(self) -> str:
         """Return which motor goes from limit to limit, and how often; "" for none."""
-        some = np.array(self.asked)
+        some = np.array(self.wanted)
         over = np.abs(some) >= self.limits
         flips = (np.sign(some[1:]) != np.sign(some[:-1])) & over[1:] & over[:-1]
         worst = int(flips.sum(axis=0).argmax())
@@ -250,13 +228,6 @@ class Control(Tab):
             f". The loop CHATTERS: {ARM_JOINTS[worst]} switched between its limits "
             f"{count} times in the last {len(some)} torques"
         )
-
-    def show(self, wanted: Array) -> None:
-        """Move the arm to where the simulation is, the ghost to the reference."""
-        q = self.page.q
-        q[:7] = self.data.qpos[:7]
-        self.page.move(q)
-        self.ghost.pose(self.page.links(wanted))
 
 
 TABS = [Control]

@@ -12,11 +12,12 @@ ONE = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 BEYOND = 3.7 * np.array([1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0])  # half a turn
 
 
-def one_gain(inputs, gains="kp and kd", lab="KP and KD"):
+def one_gain(inputs, gains="each of kp and kd", lab="KP and KD"):
     """Return the question whether a right function also takes one number as a gain."""
     says = (
-        f"Your function is correct for 7 numbers as {gains}, but stops or is wrong for "
-        f"one number, which the lab uses for {lab}. Which NumPy product accepts both?"
+        f"Your function is correct if {gains} has 7 entries, but it fails or is wrong "
+        f"for a single number, as in the lab's {lab}. Which multiplication operator "
+        f"accepts both?"
     )
     return HeldOut("one-number-as-gain", says, inputs)
 
@@ -28,8 +29,8 @@ def wrapped(angle):
 
 WRAPPED = Change(
     "error-wrapped",
-    "{name} is wrapped to -pi..pi; these joints have limits, so e and e + 2 pi are "
-    "different errors",
+    "your code wraps {name} to [-pi, pi], but these joints have limits, so e and "
+    "e + 2 pi are different errors",
     wrapped,
     hidden="no error there exceeds half a turn",
 )

@@ -15,16 +15,16 @@ def _(rng):
 
 @row.wrongs
 def _(h):
-    """undamped-limit: the result 2 / h is the stability limit of a spring without
+    """undamped-limit: your result 2 / h is the stability limit of a spring without
       damping. With critical damping the limit is lower, because the damping torque acts
       one step late
-    one-over-h: the result 1 / h is a rule of thumb; find the omega at which the matrix
-      of the step has the eigenvalue -1
-    larger-root: the result is the larger root of the quadratic equation; the loop
-      becomes unstable at the smaller root
-    nyquist: the result pi / h is the Nyquist frequency. It limits which signals can be
+    one-over-h: your result 1 / h is a rule of thumb. Find the omega at which the step
+      matrix has the eigenvalue -1
+    larger-root: your result is the larger root of the quadratic equation, but the loop
+      already becomes unstable at the smaller root
+    nyquist: your result pi / h is the Nyquist frequency. It limits which signals can be
       sampled, not which loop is stable
-    in-hertz: the result is in Hz, but it should be in rad/s
+    in-hertz: your result is in Hz, but it should be in rad/s
     """
     return {
         "undamped-limit": 2.0 / h,

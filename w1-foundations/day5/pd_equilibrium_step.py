@@ -31,10 +31,10 @@ def _(rng):
 
 @row.wrongs
 def _(q_goal, g_at_q, kp):
-    """sag-in-degrees: the steady-state error is converted to degrees, but the goal is
-      in radians
-    answer-wrapped: the angle is wrapped to -pi..pi. The joints have limits, so q and q
-      + 2 pi are different, and joint6 can move beyond pi
+    """sag-in-degrees: your code converts the steady-state error to degrees, but the
+      goal is in radians
+    answer-wrapped: your code wraps the angle to [-pi, pi]. The joints have limits, so q
+      and q + 2 pi are different, and joint6 can move beyond pi
     """
     return {
         "sag-in-degrees": q_goal - np.rad2deg(g_at_q / kp),

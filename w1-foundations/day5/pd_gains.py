@@ -17,10 +17,10 @@ def _(rng):
 
 @row.wrongs
 def _(omega, zeta):
-    """root-of-omega: kd contains the square root of omega. In 2 zeta sqrt(k) the
-      stiffness k is under the root, and omega is already sqrt(k)
-    omega-in-turns: omega is multiplied by 2 pi as if it were in turns per second, but
-      it is in rad/s
+    """root-of-omega: your kd contains the square root of omega. In 2 zeta sqrt(k), k is
+      the stiffness, and omega already equals sqrt(k)
+    omega-in-turns: your code multiplies omega by 2 pi as if it were in revolutions per
+      second, but omega is in rad/s
     """
     turns = 2.0 * np.pi * omega
     return {

@@ -12,12 +12,12 @@ row.inputs(springs)
 
 @row.wrongs
 def _(e, ed, kp, kd):
-    """one-gain-for-all: all joints use the first joint's gains; each joint has its own
-      gains
-    summed-over-joints: `kp @ e` is a dot product, which sums over the joints. Multiply
-      entry by entry, because each joint has its own torque
-    mean-gains: all joints use the mean of the gains; each joint has its own gains =>
-      the correct formula with mean(kp) and mean(kd)
+    """one-gain-for-all: all joints in your code use the first joint's gains, but each
+      joint has its own gains
+    summed-over-joints: your expression `kp @ e` is a dot product, which sums over the
+      joints. Multiply entry by entry, because each joint has its own torque
+    mean-gains: all joints in your code use the mean of the gains, but each joint has
+      its own gains
     """
     return {
         "one-gain-for-all": lambda: kp[0] * e + kd[0] * ed,

@@ -3,6 +3,7 @@
 import numpy as np
 
 from labkit.judge import Row, Vector, rounded
+from labkit.judge.answers import of_result
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 
@@ -23,16 +24,14 @@ def which_answer(case: Case) -> Finding:
     bad = [bool(some.any()) for some in wrong]
     at = 0 if bad == [True, False] else 1  # where both are wrong: the integral first
     kind, S, T = parts[at]
-    says = (
-        f"{kind.called[0].upper()}{kind.called[1:]}: {kind.what_is_wrong(S, T).message}"
-    )
-    rest = "The returned integral is correct, but the acceleration is wrong."
+    says = of_result(kind.what_is_wrong(S, T).message, kind.called)
+    rest = "Your integral is correct, but your acceleration is wrong."
     if bad == [False, True]:
-        rest = "The acceleration is correct, but the returned integral is wrong."
+        rest = "Your acceleration is correct, but your integral is wrong."
     if all(bad):
-        rest = "Both outputs are wrong; look at the integral first."
+        rest = "Both of your outputs are wrong. Look at the integral first."
     count = int(np.sum(~wrong.any(axis=0)))
-    where = f" Right for {count} of {len(S)} inputs." if count else ""
+    where = f" The result is correct in {count} of {len(S)} calls." if count else ""
     return Finding(f"{NAMES[at]}-wrong", f"{rest} {says}{where}")
 
 
@@ -82,29 +81,34 @@ def summed(sums):
 
 @summed
 def _(e, ed, integral, ki, dt, clamp):
-    """trapezoid-of-the-error: e is averaged with the error of the previous step; the
+    """trapezoid-of-the-error: your code averages e with the error of the previous step.
+      The integral should grow by e dt
+    trapezoid-of-the-error 2: your code averages e with the error of the next step. The
       integral should grow by e dt
-    trapezoid-of-the-error 2: e is averaged with the error of the next step; the
-      integral should grow by e dt
-    old-sum-clamped: the old integral is clamped before e dt is added; clamp the sum
-    error-clamped: the error is clamped instead of the integral, so the integral can
-      still grow without bound; clamp the sum
-    step-clamped: only e dt is clamped, so the integral can still grow without bound;
-      clamp the sum
-    frozen-at-the-limit: the old integral is kept if the new one exceeds the limit;
-      clamp the new one to the limit
-    emptied-at-the-limit: the integral is reset to 0 if it exceeds the limit; clamp it
-      to the limit
-    clamped-on-one-side: the integral is clamped above but not below
-    clamped-on-one-side 2: the integral is clamped below but not above
-    never-negative: the integral is clamped to 0 and clamp; the lower limit is -clamp
-    clamped-as-a-vector: the norm of the integral is limited to clamp; clamp each
-      joint's integral separately
-    term-clamped: ki times the integral is clamped; clamp is the limit of the integral
-      itself
-    old-sum-clamped 2: the old integral and e dt are clamped separately; clamp their sum
-    frozen-at-the-limit 2: an integral at its limit never changes again; an error of the
-      other sign should reduce it
+    old-sum-clamped: your code clamps the old integral before it adds e dt. Clamp the
+      integral after this addition
+    error-clamped: your code clamps the error instead of the integral, so the integral
+      can still grow without bound. Clamp the integral after the addition of e dt
+    step-clamped: your code clamps only e dt, so the integral can still grow without
+      bound. Clamp the integral after this addition
+    frozen-at-the-limit: your code keeps the old integral if the new integral exceeds
+      the limit. Clamp the new integral to the limit
+    emptied-at-the-limit: your code resets the integral to 0 if it exceeds the limit.
+      Clamp the integral to the limit instead
+    clamped-on-one-side: your code clamps the integral only at the upper limit. Clamp it
+      at the lower limit too
+    clamped-on-one-side 2: your code clamps the integral only at the lower limit. Clamp
+      it at the upper limit too
+    never-negative: your code clamps the integral to the range from 0 to `clamp`. The
+      lower limit should be -clamp
+    clamped-as-a-vector: your code limits the norm of the integral to `clamp`. Clamp
+      each joint's integral separately
+    term-clamped: your code clamps ki times the integral, but the argument `clamp` is
+      the limit of the integral itself
+    old-sum-clamped 2: your code clamps the old integral and e dt separately. Clamp
+      their sum
+    frozen-at-the-limit 2: in your code, an integral at its limit never changes again.
+      An error of the opposite sign should reduce it
     """
     step = e * dt
     new = integral + e * dt
@@ -130,18 +134,20 @@ def _(e, ed, integral, ki, dt, clamp):
 
 @row.wrongs
 def _(e, ed, integral, kp, kd, ki, dt, clamp):
-    """clamped-too-late: the acceleration uses the integral before it is clamped
-    bound-not-handed-back: the acceleration uses the clamped integral, but the integral
-      is returned without the clamp, so it can grow without bound
-    old-integral-used: the acceleration uses the integral of the previous step; update
-      it first
-    old-integral-kept: the integral is returned unchanged; return the new one
-    this-step-alone-used: ki multiplies only e dt of this step; the acceleration needs
-      the whole integral
-    ki-in-the-integral: ki is inside the integral, so clamp no longer limits the
-      integral itself
-    term-handed-back: ki times the integral is returned; return the integral itself
-    swapped: the two outputs are swapped; the acceleration should be first
+    """clamped-too-late: your acceleration uses the integral before it is clamped. Use
+      the clamped integral
+    bound-not-handed-back: your acceleration uses the clamped integral, but your code
+      returns the unclamped integral, which can grow without bound
+    old-integral-used: your acceleration uses the integral of the previous step. Update
+      the integral first
+    old-integral-kept: your code returns the old integral. Return the updated integral
+    this-step-alone-used: your code multiplies only the current e dt by ki, but the
+      acceleration needs the whole integral
+    ki-in-the-integral: your integral already contains ki, so `clamp` no longer limits
+      the integral of the error
+    term-handed-back: your code returns ki times the integral. Return the integral
+      itself
+    swapped: your code swaps the two outputs. The acceleration should be first
     """
     raw = integral + e * dt
     springs = kp * e + kd * ed

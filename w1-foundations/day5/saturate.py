@@ -24,18 +24,20 @@ def _(rng):
 
 @row.wrongs
 def _(tau, limits):
-    """above-only: torques are clamped above but not below: -100 N m remains -100 N m
-    below-only: torques are clamped below but not above
-    sign-lost: a negative torque beyond its limit becomes positive; clamp it to minus
-      the limit
-    limits-typed-in: the Panda's 87 and 12 N m are typed in; use limits, because another
-      arm has other limits
-    smallest-limit-for-all: all joints use the smallest limit; each motor has its own
-      limit
-    all-scaled-down: one motor at its limit scales all seven torques down; the other
-      motors can still give their torques
-    length-bounded: the norm of the torque vector is compared with the limits; compare
-      each torque with its own limit
+    """above-only: your code clamps torques only at the upper limit, so for example -100
+      N m remains unchanged
+    below-only: your code clamps torques only at the lower limit. Clamp them at the
+      upper limit too
+    sign-lost: in your code, a negative torque beyond its limit becomes positive. Clamp
+      it to minus the limit
+    limits-typed-in: your code contains the Panda's limits, 87 and 12 N m, as fixed
+      numbers. Use the argument `limits`, because another arm has other limits
+    smallest-limit-for-all: all joints in your code use the smallest limit, but each
+      motor has its own limit
+    all-scaled-down: in your code, one motor at its limit scales all seven torques down,
+      but the other motors can still supply their full torques
+    length-bounded: your code compares the norm of the torque vector with the limits.
+      Compare each torque with its own limit
     """
     length = max(np.linalg.norm(tau), 1e-300)
     return {
@@ -51,22 +53,24 @@ def _(tau, limits):
 
 @row.wrongs
 def _(tau, limits):
-    """switched-off: a torque beyond its limit becomes 0; the motor can still give its
-      limit
-    the-larger-one: the larger one of the torque and its limit is returned; return the
-      smaller one, with the sign of the torque
-    always-full: every torque becomes plus or minus its limit; a torque within the
-      limits should not change
-    one-over-stops-all: one torque beyond its limit makes all seven torques 0; the other
-      motors can still give their torques
-    nothing-within-the-limits: if all torques are within their limits, the result is 0;
-      they should not change
-    first-limit-typed-in: the value 87 N m is typed in for all joints; use each motor's
-      own entry of limits
-    all-positive: all torques become positive; a motor can push in both directions
-    rounded-off: the result is limits tanh(tau / limits), a smooth saturation; a torque
+    """switched-off: in your code, a torque beyond its limit becomes 0, but the motor
+      can still supply its maximum torque
+    the-larger-one: your code returns the torque or its limit, whichever is larger in
+      magnitude. Return the smaller magnitude, with the sign of the torque
+    always-full: in your code, every torque becomes plus or minus its limit. A torque
       within the limits should not change
-    first-joint-only: only the torque of joint1 is clamped; every motor has a limit
+    one-over-stops-all: in your code, one torque beyond its limit makes all seven
+      torques 0, but the other motors can still supply their torques
+    nothing-within-the-limits: your result is 0 if all torques are within their limits.
+      Such torques should not change
+    first-limit-typed-in: your code uses the limit 87 N m for all joints. Use each
+      motor's own entry in `limits`
+    all-positive: in your code, all torques become positive, but a motor can act in both
+      directions
+    rounded-off: your code returns limits * tanh(tau / limits), a smooth saturation. A
+      torque within the limits should not change
+    first-joint-only: your code clamps only the torque of joint1, but every motor has a
+      limit
     """
     right = np.clip(tau, -limits, limits)
     over = np.abs(tau) > limits

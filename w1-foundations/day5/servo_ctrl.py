@@ -21,10 +21,10 @@ def _(rng):
 
 @row.wrongs
 def _(tau, q, qd, kp, kd):
-    """damper-not-divided: only tau is divided by kp; kd qd is also a torque, so divide
-      the sum
-    torque-of-the-command: the result is the torque of a servo with the command tau;
-      solve the servo's law for the command instead
+    """damper-not-divided: your code divides only tau by kp, but kd qd is also a torque.
+      Divide the sum of both by kp
+    torque-of-the-command: your code returns the torque of a servo whose command is tau.
+      Solve the servo equation for the command instead
     """
     return {
         "damper-not-divided": q + tau / kp + kd * qd,

@@ -53,37 +53,35 @@ def bias(
 
 @row.wrongs
 def _(J_space, qd, p):
-    """of-the-origin: the result is the rate of the twist, the sum of ad(V) S qd. Its
-      linear part belongs to the world's origin; convert it to the point p => the sum of
-      ad(V) S qd alone
-    no-centripetal: the term omega x (velocity of p) is missing; a point on a circle
-      accelerates towards the centre even at constant speed => the correct formula
-      without that term
-    no-alpha-cross-p: the term alpha x p is missing, so the linear acceleration belongs
-      to the world's origin and not to p => the correct formula without alpha x p
-    velocity-of-origin: omega is crossed with v, the velocity of the point at the
-      world's origin; p has the velocity v + omega x p => the correct formula with v
-      there
-    v-forgotten: the velocity of p is calculated as omega x p; add v
-    coriolis-twice: omega x v is added twice. ad(V) S already contains it once; 2 omega
-      x v belongs to accelerations measured in a rotating frame => the correct formula
-      with 2 v
-    centripetal-twice: omega x (velocity of p) is added twice; the factor 2 belongs to
-      the Coriolis acceleration in a rotating frame => the correct formula with that
-      term twice
-    p-sign: the factors of the cross products with p are swapped: p x omega is
-      -(omega x p) => the correct formula with -p
-    ad-swapped: V and S are swapped in ad(V) S, which reverses its sign, or the twists
-      are summed from the tip instead of the base
-    ad-transposed: ad(V) is transposed; the transpose acts on wrenches, and screws need
-      ad(V) => the correct formula with ad(V)^T
-    ad-half: ad(V) lacks its lower left block [v] => the correct formula without that
-      block
-    twist-of-the-hand: every joint uses the twist of the hand; joint i uses the twist of
-      link i, which only joints 1 to i cause. Because ad(V) V is 0, the sum vanishes =>
-      the correct formula without the sum of ad(V) S qd
-    qd-once: the screws are not multiplied by their own joint velocities: the sum should
-      contain ad(V) S qd => the correct formula with ad(V) S
+    """of-the-origin: your code returns the rate of change of the twist, the sum of
+      ad(V) S qd. Its linear part belongs to the world origin and has to be converted to
+      the point p
+    no-centripetal: your code omits the term omega x (velocity of p), but a point on a
+      circle accelerates towards the centre even at constant speed
+    no-alpha-cross-p: your code omits the term alpha x p, so the linear acceleration
+      belongs to the world origin and not to p
+    velocity-of-origin: your code uses omega x v, where v is the velocity of the point
+      at the world origin. The point p has the velocity v + omega x p
+    v-forgotten: your code computes the velocity of p as omega x p. This velocity should
+      also contain v
+    coriolis-twice: your code adds omega x v twice, but ad(V) S already contains this
+      term once. The form 2 omega x v belongs to accelerations measured in a rotating
+      frame
+    centripetal-twice: your code adds omega x (velocity of p) twice, but the factor 2
+      belongs to the Coriolis acceleration in a rotating frame
+    p-sign: your code swaps the factors of the cross products with p, but p x omega is
+      -(omega x p)
+    ad-swapped: your code swaps V and S in ad(V) S, which reverses the sign, or it sums
+      the twists from the tip instead of the base
+    ad-transposed: your code transposes ad(V). The transpose maps wrenches, but screws
+      need ad(V) itself
+    ad-half: your ad(V) lacks its lower left block [v], but the linear velocity changes
+      the linear half of a twist
+    twist-of-the-hand: every joint in your code uses the twist of the hand. Joint i
+      should use the twist of link i, which only joints 1 to i cause. Because ad(V) V is
+      0, your sum vanishes
+    qd-once: your code does not multiply the screws by their own joint velocities. The
+      sum should contain ad(V) S qd
     """
     changed = {
         "of-the-origin": {"turn": 0.0, "centre": 0.0, "move": 0.0},

@@ -41,26 +41,26 @@ def by_modes(K, L):
 
 @row.wrongs
 def _(K, Lambda):
-    """Lambda-ignored: `Lambda` is not used: 2 sqrt(K) is the critical damping of a unit
-      mass => diag(2 sqrt(K))
-    another-design: the result is another critically damped design, which diagonalises
-      Lambda and K together. The task asks for the sum of the two products of
-      sqrt(Lambda) and sqrt(K) => the other design
-    diagonal-only: each axis uses 2 sqrt(k m) with the diagonal of Lambda; Lambda
-      couples the axes => the correct formula with Lambda's diagonal
-    one-order-only: the product of the two roots is used twice in one order; add both
-      orders, so that the result is symmetric => 2 sqrt(Lambda) sqrt(K)
-    half-of-it: only one of the two products is used; add the product in the other order
-      => sqrt(Lambda) sqrt(K)
-    factor-two: the factor 2 is not needed: the sum of both orders already contains it
-    factor-two-missing: the two orders are averaged; add them
-    root-on-both-sides: sqrt(Lambda) is on both sides of sqrt(K), so the result grows
-      with the mass. It should grow with the square root of the mass => 2 sqrt(Lambda)
-      sqrt(K) sqrt(Lambda)
-    root-of-the-product: the result is 2 sqrt(K Lambda), entry by entry; use the matrix
-      square root of Lambda => 2 sqrt(abs(K Lambda))
-    cholesky: your code uses a Cholesky factor instead of the square root: Lambda is L
-      L^T, not L L => L sqrt(K) + sqrt(K) L^T
+    """Lambda-ignored: your code does not use `Lambda`, but 2 sqrt(K) is the critical
+      damping of a unit mass
+    another-design: your code returns another critically damped design, which
+      diagonalises Lambda and K together. The task requires the sum of the two products
+      of sqrt(Lambda) and sqrt(K)
+    diagonal-only: each axis in your code uses 2 sqrt(k m), with m from the diagonal of
+      Lambda, but Lambda couples the axes
+    one-order-only: your code adds the same product of the two roots twice. Add the
+      products in both orders, so that the result is symmetric
+    half-of-it: your code uses only one of the two products. Add the product in the
+      opposite order
+    factor-two: your result contains an extra factor 2. For single numbers k and m, the
+      sum of the two products is already 2 sqrt(k m)
+    factor-two-missing: your code averages the two products. It should add them
+    root-on-both-sides: your code has sqrt(Lambda) on both sides of sqrt(K), so the
+      result grows with the mass. It should grow with the square root of the mass
+    root-of-the-product: your code computes 2 sqrt(K Lambda) entry by entry. Use the
+      matrix square root of Lambda
+    cholesky: your code uses a Cholesky factor L instead of the square root, but Lambda
+      is L L^T and not L L
     """
     k = np.sqrt(K)
     half = root(Lambda)
@@ -81,18 +81,18 @@ def _(K, Lambda):
 
 @row.wrongs
 def _(K, Lambda):
-    """entries-square-rooted: np.sqrt takes the root of each entry of Lambda; the matrix
-      square root X satisfies X X = Lambda
-    eigenvectors-transposed: the eigenvectors are transposed: the columns of V are the
-      eigenvectors, so the root is V diag V^T => the correct formula with V^T diag V
-    eigenvalues-not-rooted-back: the root diag(sqrt(values)) is in the eigenvector
-      basis; rotate it back with V => the correct formula with diag(sqrt(values))
-    cholesky: your code uses a Cholesky factor instead of the square root: Lambda is L
-      L^T, not L L => the correct formula with L
-    entries-square-rooted 2: the root of the absolute value of each entry is used; the
-      matrix square root X satisfies X X = Lambda => the correct formula with
-      np.sqrt(abs(Lambda))
-    eigenvectors-transposed 2: the last transpose is missing: the root is V diag V^T
+    """entries-square-rooted: your code uses np.sqrt, which takes the root of each entry
+      of Lambda, but the matrix square root X satisfies X X = Lambda
+    eigenvectors-transposed: your code transposes the eigenvectors. The columns of V are
+      the eigenvectors, so the square root is V diag(sqrt(values)) V^T
+    eigenvalues-not-rooted-back: your square root diag(sqrt(values)) is expressed in the
+      eigenvector basis. Transform it back with V
+    cholesky: your code uses a Cholesky factor L instead of the square root, but Lambda
+      is L L^T and not L L
+    entries-square-rooted 2: your code takes the root of the absolute value of each
+      entry, but the matrix square root X satisfies X X = Lambda
+    eigenvectors-transposed 2: your code omits the last transpose. The square root is V
+      diag(sqrt(values)) V^T
     """
     values, V = np.linalg.eigh(Lambda)
     roots = {

@@ -30,25 +30,22 @@ def at(row, value, wrench):
 
 @row.wrongs
 def _(e, V_err, K, D, force):
-    """pushes-up: the force has the wrong sign: z points up, and the hand should push
-      down => the correct formula with +force
-    spring-left-in: the spring still acts along z, so the normal force depends on the
-      height of the hand => the correct formula with K e along z
-    damper-left-out: the damping term is missing along z; only the spring should be
-      removed there
+    """pushes-up: your force has the wrong sign. The z axis points up, and the hand
+      should push down
+    spring-left-in: your spring still acts along z, so the normal force depends on the
+      height of the hand. Remove the spring force along z
+    damper-left-out: your code omits the damping force along z. Remove only the spring
+      force along z
     moment-in-place-of-force: your code replaces entry 2, which is the moment about z.
-      The last three entries are the force, so the force along z is entry 5 => the
-      correct formula with entry 2 replaced
-    spring-everywhere: force is not used: the result is the impedance wrench in all six
-      directions => K e + D V_err
-    along-x: the force acts along x; it should act along z => the correct formula with
-      entry 3 replaced
-    spring-couples-into-z: the errors of the other five directions still contribute to
-      the force along z through K. No spring force should be left there => the correct
-      formula with K[5, :5] @ e[:5] along z
-    column-in-place-of-row: the error along z is set to 0, which removes the last column
-      of K. Remove the spring force along z, which is its last row => the correct
-      formula with e[5] = 0
+      The last three entries are the force, so the force along z is entry 5
+    spring-everywhere: your code does not use the argument `force`, so the result is the
+      impedance wrench in all six directions
+    along-x: your force acts along x. It should act along z
+    spring-couples-into-z: in your code, the errors in the other five directions still
+      contribute to the force along z through K. Remove the whole spring force along z
+    column-in-place-of-row: your code sets the error along z to 0, which removes the
+      last column of K. Remove the spring force along z, which comes from the last row
+      of K
     """
     spring, damper = K @ e, D @ V_err
     both = spring + damper
@@ -67,13 +64,11 @@ def _(e, V_err, K, D, force):
 
 @row.wrongs
 def _(e, V_err, K, D, force):
-    """moment-in-place-of-force: your code writes the force into entry 2, which is the
-      moment about z, and this entry lacks its damping term. The last three entries are
-      the force, so the force along z is entry 5 => the correct formula with entry 2
-      replaced
-    column-in-place-of-row: the last row and the last column of K are removed. An error
-      along z should still contribute to the other five directions => the correct
-      formula with row and column 5 of K at 0
+    """moment-in-place-of-force: your code writes the force to entry 2, the moment about
+      z, and omits the damping term of this entry. The last three entries are the force,
+      so the force along z is entry 5
+    column-in-place-of-row: your code removes the last row and the last column of K. An
+      error along z should still contribute to the other five directions
     """
     return {
         "moment-in-place-of-force": at(MOMENT_Z, -force, K @ e + D @ V_err),

@@ -29,17 +29,16 @@ def _(rng):
 
 @row.wrongs
 def _(J, wrench, bias, damping, qd, tau_null):
-    """damping-summed: damping @ qd is a dot product, which sums over the joints;
-      multiply entry by entry => the correct formula with damping @ qd
-    bias-sign: bias has the wrong sign; bias is the torque that the motors must supply
-      => the correct formula with -bias
-    damping-sign: the damping torque has the wrong sign; damping opposes the motion, so
-      the motors must supply damping qd => the correct formula with -damping qd
-    bias-six-times: bias is added once for each of the six rows of J; add it once per
-      joint => the correct formula with 6 bias
-    pinv-for-transpose: pinv(J) maps the wrench to the joints; J^T maps wrenches to
-      torques, and the pseudo-inverse maps velocities => the correct formula with
-      pinv(J)
+    """damping-summed: your expression `damping @ qd` is a dot product, which sums over
+      the joints. Multiply entry by entry
+    bias-sign: your bias term has the wrong sign. The argument `bias` is the torque that
+      the motors must supply
+    damping-sign: your damping torque has the wrong sign. Damping opposes the motion, so
+      the motors must supply the torque `damping` times qd
+    bias-six-times: your code adds `bias` once for each of the six rows of J. Add it
+      only once
+    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). The
+      pseudo-inverse maps velocities, but J^T maps wrenches to torques
     """
     push = J.T @ wrench
     rub = damping * qd

@@ -14,10 +14,9 @@ row.inputs(springs)
 
 @row.wrongs
 def _(e, V_err, K, D):
-    """diagonals: only the diagonals of K and D are used; the six directions are coupled
-      => the correct formula with both diagonals
-    millimetres: the linear error is converted to millimetres, but K is in N/m => the
-      correct formula with e in millimetres
+    """diagonals: your code uses only the diagonals of K and D, but the six directions
+      are coupled
+    millimetres: your code converts the linear error to millimetres, but K is in N/m
     """
     return {
         "diagonals": np.diag(K) * e + np.diag(D) * V_err,

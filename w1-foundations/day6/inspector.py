@@ -10,28 +10,19 @@ from functools import cache, partial
 import mujoco
 import numpy as np
 
-from labkit.inspector import words
+from labkit.inspector import declared as ui
 from labkit.inspector.draw import joined
-from labkit.inspector.instruments import three
-from labkit.inspector.page import Page
-from labkit.inspector.robot import Robot
-from labkit.inspector.tab import PLAYS, Tab
 from robo47 import control, jacobian, panda, scenes, simulate, task_space
 from robo47.checks import Array
 from robo47.rotation_log import small_pose_error
 
-RATE, HZ = 100.0, 25.0  # of the controller, and of the picture
+RATE = 100.0  # of the controller
 TURN, BACK = 30.0, 4.0  # N m/rad of the hand; N m s/rad of the elbow
 HUGE = 1e4  # N m; with more the simulator reports an instability
 PULL = 100.0  # N per metre that the handle is away
 PRESS = 20.0  # N, on the table
 MOST = 60.0  # N, where the bar of the table's force ends
 LONG = 0.04  # metres of the ellipsoid's half axis per root of a kilogram
-UNITS = {
-    "task_inertia": "(kg, kg m or kg m2)", "critical_damping": "(N s/m or N m s/rad)",
-    "nullspace_torque": "N m", "impedance_wrench": "(N or N m)",
-    "impedance_torque": "N m",
-}  # fmt: skip
 AGAIN, LET_GO, READY = "start / stop", "let go", "press the table"
 
 
@@ -43,121 +34,106 @@ def _scene() -> mujoco.MjModel:
 dressed = partial(scenes.press_table, meshes=True)
 
 
-class Touch(Tab):
+class Touch(ui.Declared):
     """Pull a soft hand and observe its displacement."""
 
     title = "Touch"
-    wide = True
     camera = ((1.75, -1.3, 0.95), (0.5, 0.25, 0.42))
+    library = task_space
+    functions = {
+        "task_inertia": "(kg, kg m or kg m2)",
+        "critical_damping": "(N s/m or N m s/rad)", "nullspace_torque": "N m",
+        "impedance_wrench": "(N or N m)", "impedance_torque": "N m",
+    }  # fmt: skip
+    hz = 25.0
 
-    def __init__(self, page: Page) -> None:
-        """Make the sliders, the handle and the arm at its table; nothing runs yet."""
-        super().__init__(page)
-        self.robot = _scene()
+    k = ui.slider("stiffness of the hand", 50, 2000, 400.0, "N/m", 50, then="frame")
+    hold = ui.slider("stiffness of the elbow", 0, 40, 10.0, "N m/rad", 1, then="frame")
+    at_elbow = ui.slider("push at the elbow", -30, 30, 0.0, "N", 1, then="go_on")
+    does = ui.buttons(AGAIN, LET_GO, READY, then="press")
+    bars = ui.panel.bars(["table"], MOST, "N", "force on the table", "scale")
+    drawn = ui.panel.robot(_scene, dressed)
+    mass = ui.yours.ellipsoid("purple", legend="inertia of the hand")
+    arrow = ui.scene.arrows(ui.NOWHERE, "red", 0.008, legend="your pull")
+    target = ui.handle("drag")
+
+    def prepare(self) -> None:
         self.arm = panda.arm(_scene())
+        self.weighed: tuple[Array, Array] | None = None  # Lambda, the library's
+        self.rest(self.page.q[:7])
+
+    def rest(self, q: Array) -> None:
+        """Put the arm at rest at q, (7,), which is its goal, without a pull."""
+        self.goal_q = q.copy()
         self.force = np.zeros(3)
-        self.at_elbow = 0.0
-        self.k = 400.0
-        self.hold = 10.0
-        self.goal_q = page.q[:7].copy()
-        self.data = simulate.start(self.robot, self.goal_q)
-        self.Lambda: Array | None = None  # the student's, of the last torque
-        self.weighed: tuple[Array, Array]  # where: J and M
-        self.own = page.own(task_space, units=UNITS)
-        page.buttons([AGAIN, LET_GO, READY], self.press)
-        stiffness = "stiffness of the hand"
-        page.slider(stiffness, 50, 2000, self.k, self.set_k, unit="N/m", step=50)
-        unit = "N m/rad"
-        hold = partial(setattr, self, "hold")
-        page.slider("stiffness of the elbow", 0, 40, self.hold, hold, unit=unit, step=1)
-        page.slider("push at the elbow", -30, 30, 0, self.set_elbow, unit="N", step=1)
-        self.numbers = page.html()
-        self.bars = page.bars(["table"], MOST, "N", "force on the table", "scale")
-        self.loop = page.animate(lambda seconds: self.show(), HZ, work=self.step)
-        self.drawn = Robot(page, self.robot, dressed)
-        self.mass = page.draw.ellipsoid("purple")
-        self.arrow = page.draw.arrows(np.zeros((1, 2, 3)), "red", 0.008)
-        self.target = page.draw.target(page.pose("ee"), self.drag)
-        page.legend({"your pull": "red", "inertia of the hand": "purple"})
-        self.show()
+        self.data = simulate.start(_scene(), self.goal_q)
 
-    def set_k(self, k: float) -> None:
-        """Choose the stiffness of the hand."""
-        self.k = k
-        self.show()
+    def goal(self) -> Array:
+        """Return the pose that the hand is held at, (4, 4)."""
+        return self.arm.at(self.goal_q).T_world_ee.copy()
 
-    def set_elbow(self, force: float) -> None:
-        """Push at link4, along y."""
-        self.at_elbow = force
+    def go_on(self) -> None:
+        """Simulate from here on."""
         self.loop.start()
 
     def drag(self, T: Array) -> None:
         """Pull at the hand, towards the handle."""
-        self.force = PULL * (T[:3, 3] - self.arm.at(self.goal_q).T_world_ee[:3, 3])
+        self.force = PULL * (T[:3, 3] - self.goal()[:3, 3])
         self.loop.start()
-        self.show()
 
-    def press(self, name: str) -> None:
+    def press(self) -> None:
         """Start, stop, let go, or press on the table from just above it."""
-        if name == AGAIN:
+        if self.does == AGAIN:
             self.loop.toggle()
             return
         self.force = np.zeros(3)
-        if name == READY:
+        if self.does == READY:
             q = self.page.q
-            q[:7] = self.goal_q = _over_the_table()
+            q[:7] = _over_the_table()
             self.page.move(q)
-            self.data = simulate.start(self.robot, self.goal_q)
+            self.rest(q[:7])
             self.force[2] = -PRESS
-        self.target.place(self.arm.at(self.goal_q).T_world_ee)
+        self.target.place(self.goal())
         self.loop.start()
-        self.show()
 
-    def on_move(self, q: Array) -> None:
-        """Take the page's configuration as the wanted one."""
-        self.goal_q = q[:7].copy()
-        if not self.loop.running:
-            self.data = simulate.start(self.robot, self.goal_q)
-            now = self.arm.at(self.goal_q)
-            self.page.job(lambda: self.weigh(now.J_site, now.M), lambda _: self.show())
-        self.show()
-
-    def begin(self) -> None:
-        """Pull at the hand with 10 N along x."""
-        self.data = simulate.start(self.robot, self.goal_q)
-        self.force = np.array([0.1 * PULL, 0.0, 0.0])
-        T = self.arm.at(self.goal_q).T_world_ee.copy()
+    def restart(self) -> None:
+        """Pull with a tenth of PULL along x."""
+        self.rest(self.goal_q)
+        self.force[0] = 0.1 * PULL
+        T = self.goal()
         T[:3, 3] += self.force / PULL
         self.target.place(T)
-        self.loop.stop()
-        self.loop.start(PLAYS)
+
+    def on_move(self, q: Array) -> None:
+        self.goal_q = q[:7].copy()
+        if not self.loop.running:
+            self.data = simulate.start(_scene(), self.goal_q)
+            now = self.arm.at(self.goal_q)
+            self.page.job(
+                lambda: self.weigh(now.J_site, now.M), lambda _: self._frame(0.0)
+            )
 
     def weigh(self, J: Array, M: Array) -> Array:
-        """Return the student's Lambda, and keep it; it waits for them."""
+        """Return the student's Lambda, and keep it beside the library's; it waits."""
         Lambda: Array = self.own.task_inertia(J, M)
-        self.Lambda, self.weighed = Lambda, (J, M)
+        self.weighed = Lambda, task_space.task_inertia(J, M)
         return Lambda
 
     def lost(self) -> None:
-        """Show no numbers and no mass, and the arm where it began."""
-        self.Lambda = None
+        super().lost()
+        self.weighed = None
         if not self.loop.running:
-            self.data = simulate.start(self.robot, self.goal_q)
+            self.rest(self.goal_q)
             self.drawn.show(self.data.qpos)
             self.arrow.visible = False
-        self.mass.ball.visible = False
-        self.bars.clear()
-        self.numbers.content = ""
 
-    def step(self, seconds: float) -> None:
-        """Simulate one picture's time; it waits for the student's torques."""
-        simulate.run(
-            self.robot, self.data, self.law(), 1.0 / HZ, rate=RATE, push=self.push
-        )
+    def advance(self, seconds: float) -> None:
+        given = (_scene(), self.data, self.law(), 1.0 / self.hz)
+        simulate.run(*given, rate=RATE, push=self.push)
 
     def law(self) -> simulate.Controller:
         """Return the student's soft hand, with the chosen stiffness."""
-        T_goal = self.arm.at(self.goal_q).T_world_ee
+        T_goal = self.goal()
         K = np.array([TURN] * 3 + [self.k] * 3)
         own = self.own
 
@@ -188,36 +164,35 @@ class Touch(Tab):
         point = data.xpos[link4]
         mujoco.mj_applyFT(model, data, F, none, point, link4, data.qfrc_applied)
 
-    def show(self) -> None:
-        """Draw the arm, its inertia and the pull, and show the prediction."""
-        q = self.data.qpos[:7].copy()
-        now = self.arm.at(q)
-        goal = self.arm.at(self.goal_q).T_world_ee[:3, 3]
+    def frame(self, seconds: float = 0.0) -> None:
+        now = self.arm.at(self.data.qpos[:7].copy())
         hand = now.T_world_ee[:3, 3]
         self.drawn.show(self.data.qpos)
         self.arrow.visible = bool(self.force.any())
-        if self.force.any():
-            self.arrow.points = joined([hand, hand + self.force / PULL])
-        felt = scenes.contact_force(self.robot, self.data, "tip", "table_top")
-        self.bars.show([felt])
-        predicted = 1000 * self.force / self.k
-        moved = 1000 * (hand - goal)
-        if self.Lambda is None:
-            weighs = "Lambda of the hand is not known."
-        else:
-            mass = self.Lambda[3:, 3:]
-            self.mass.show(mass, hand, LONG)
-            kilograms = ", ".join(f"{m:.1f}" for m in np.diag(mass))
-            truth = task_space.task_inertia(*self.weighed)[3:, 3:]
-            ours = ", ".join(f"{m:.1f}" for m in np.diag(truth))
-            weighs = f"Diagonal of your Lambda: {kilograms} kg along x, y, z"
-            weighs += "." if kilograms == ours else f"; of the library's {ours}."
-        self.numbers.content = words.line(
-            f"t = {self.data.time:.1f} s. Pull ({_three(self.force)}) N; in the air "
-            f"F / k = ({_three(predicted)}) mm, moved ({_three(moved)}) mm. {weighs} "
-            f"Force on the table: {three(felt, MOST)} N.",
-            "touch",
-        )
+        self.arrow.points = joined([hand, hand + self.force / PULL])
+        self.bars.show([self.felt()])
+        self.mass.visible = self.weighed is not None
+        if self.weighed is not None:
+            self.mass.show(self.weighed[0][3:, 3:], hand, LONG)
+
+    def felt(self) -> float:
+        """Return the force of the pen on the table, N."""
+        return scenes.contact_force(_scene(), self.data, "tip", "table_top")
+
+    def says(self, *_):
+        hand = self.arm.at(self.data.qpos[:7].copy()).T_world_ee[:3, 3]
+        moved = 1000 * (hand - self.goal()[:3, 3])
+        F = f"t = {self.data.time:.1f} s. Pull ({_three(self.force)}) N; in the air "
+        predicted = f"F / k = ({_three(1000 * self.force / self.k)}) mm"
+        laws = "critical_damping nullspace_torque impedance_wrench impedance_torque"
+        yield f"{F}{predicted}, moved ({_three(moved)}) mm.", laws
+        if self.weighed is not None:
+            mine, ours = (
+                ", ".join(f"{m:.1f}" for m in np.diag(x)[3:]) for x in self.weighed
+            )
+            says = f"Diagonal of your Lambda: {mine} kg along x, y, z"
+            says += "." if mine == ours else f"; of the library's {ours} kg."
+            yield says, "task_inertia"
 
 
 @cache

@@ -19,13 +19,13 @@ def damped(case: Case) -> Finding | None:
     left = a - solve(Lambda, push[..., None])[..., 0]  # of a damped one: c times push
     added = np.sum(left * push) / max(np.sum(push * push), 1e-12)
     if added > 1e-8 and np.abs(left - added * push).max() < 0.01 * np.abs(left).max():
-        return Finding("damped", f"{DAMPED} The number is {added:.2g}.")
+        return Finding("damped", f"{DAMPED} The added number is {added:.2g}.")
     return None
 
 
 DAMPED = (
-    "A number is added to the diagonal of J M^-1 J^T, so a part of the torque "
-    "accelerates the hand. Use the argument Lambda."
+    "Your code adds a number to the diagonal of J M^-1 J^T, so part of the torque "
+    "still accelerates the hand. Use the argument Lambda."
 )
 # One matrix with two readings: J^T pinv(J^T) is J^+ J.
 row = Row(TORQUE, alike=[{"pinv-of-transpose", "kinematic-projector"}], unnamed=damped)
@@ -39,27 +39,26 @@ def _(rng):
 
 @row.wrongs
 def _(J, M, Lambda, tau):
-    """another-projector: the result does not accelerate the hand either, but the
-      subtracted torque is not J^T times a wrench. Use the wrench that Lambda gives => M
-      n n^T M^-1 tau
-    acceleration: the result is a joint acceleration that does not move the hand;
-      multiply it by M to get a torque => M^-1 times the correct formula
-    not-projected: tau is returned unchanged, so it also accelerates the hand => tau
-    kinematic-projector: the projector I - J^+ J acts on joint velocities, not on
-      torques: how a torque accelerates the hand depends on M. The arm still draws the
-      circle, but the hand accelerates by metres per second squared => tau - J^+ J tau
-    M-for-identity: tau is multiplied by M before the subtraction. The unit of M tau is
-      kg m2 times N m, so it is not a torque => (M - J^T Lambda J M^-1) tau
-    projector-transposed: the projector is transposed: M^-1 J^T Lambda J acts on joint
-      accelerations. For torques M^-1 is on the right => tau - M^-1 J^T Lambda J tau
-    the-other-part: the result is the part of tau that accelerates the hand; subtract it
-      from tau => tau minus the correct formula
-    position-only: only the linear acceleration of the hand is removed, so the hand
-      rotates => the correct formula with the linear half alone
-    pinv-for-transpose: pinv(J) maps the wrench to the joints; J^T maps wrenches to
-      torques => the correct formula with pinv(J)
-    pinv-of-transpose: the projector I - J^T pinv(J^T) acts on joint velocities, not on
-      torques: how a torque accelerates the hand depends on M => tau - J^T pinv(J^T) tau
+    """another-projector: your result does not accelerate the hand, but your code
+      subtracts a torque that is not J^T times a wrench. Compute this wrench with Lambda
+    acceleration: your code returns a joint acceleration that does not move the hand.
+      Multiply it by M to get a torque
+    not-projected: your code returns tau unchanged, so tau also accelerates the hand
+    kinematic-projector: your projector I - J^+ J acts on joint velocities, not on
+      torques, because the acceleration from a torque depends on M. The arm still draws
+      the circle, but the hand accelerates by several m/s2
+    M-for-identity: your code multiplies tau by M before the subtraction. M tau has the
+      unit kg m2 times N m, so it is not a torque
+    projector-transposed: your projector is transposed. M^-1 J^T Lambda J acts on joint
+      accelerations, but in the projector for torques M^-1 is on the right
+    the-other-part: your code returns the part of tau that accelerates the hand.
+      Subtract this part from tau
+    position-only: your code removes only the linear acceleration of the hand, so the
+      hand still rotates
+    pinv-for-transpose: your code maps the wrench to the joints with pinv(J), but J^T
+      maps wrenches to torques
+    pinv-of-transpose: your projector I - J^T pinv(J^T) acts on joint velocities, not on
+      torques, because the acceleration from a torque depends on M
     """
     acc = solve(M, tau)
     a = J @ acc

@@ -28,22 +28,20 @@ def _(rng):
 
 @row.wrongs
 def _(J, Lambda, bias, bias_acc, acc):
-    """bias-sign: bias has the wrong sign; bias is the torque that the motors must
-      supply => the correct formula with -bias
-    pinv-for-transpose: pinv(J) maps the wrench to the joints; J^T maps wrenches to
-      torques, and the pseudo-inverse maps velocities => the correct formula with
-      pinv(J)
-    site-bias-not-weighed: bias_acc is subtracted after the product with Lambda;
-      bias_acc is an acceleration, so subtract it from acc => J^T (Lambda acc -
-      bias_acc) + bias
-    acc-sign: acc is subtracted from bias_acc, so the hand accelerates in the opposite
-      direction => the correct formula with bias_acc - acc
-    force-alone: only the force acts, without the moment: J^T has six columns, and the
-      first three belong to the moment => the correct formula without the moment
-    halves-swapped: the accelerations are in the order (linear; angular); the angular
-      part comes first => the correct formula with its halves swapped
-    bias-at-the-hand: bias is subtracted inside the brackets, as if it were a wrench at
-      the hand; bias is a torque of the joints => J^T (Lambda (acc - bias_acc) + J bias)
+    """bias-sign: your bias term has the wrong sign. The argument `bias` is the torque
+      that the motors must supply
+    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). The
+      pseudo-inverse maps velocities, but J^T maps wrenches to torques
+    site-bias-not-weighed: your code subtracts bias_acc after the product with Lambda,
+      but bias_acc is an acceleration. Subtract it from acc first
+    acc-sign: your code computes bias_acc - acc instead of acc - bias_acc, so the hand
+      accelerates in the opposite direction
+    force-alone: your code applies only the force and omits the moment. J^T has six
+      columns, and the first three belong to the moment
+    halves-swapped: your accelerations are in the order (linear; angular), but the
+      angular part comes first
+    bias-at-the-hand: your code adds J times `bias` to the wrench before the product
+      with J^T, but `bias` is already a joint torque. Add it after this product
     """
     own = acc - bias_acc
     push = J.T @ Lambda @ own

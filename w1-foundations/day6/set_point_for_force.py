@@ -24,17 +24,16 @@ def _(rng):
 
 @row.wrongs
 def _(force, k, surface):
-    """millimetres: the depth is in millimetres, but all lengths should be in metres
-    whole-metres: the operator // rounds the depth down to whole metres; use / =>
-      surface - force // k
-    docstrings-numbers: k is always 400, the value in the docstring; use the argument =>
-      surface - force / 400
-    docstrings-numbers 2: the surface is always at 0.42, the value in the docstring; use
-      the argument => 0.42 - force / k
-    never-below-zero: heights below 0 are replaced by 0, but the commanded height can be
-      below 0 => the correct formula, at least 0
-    newtons-as-weight: force is divided by 9.81, which gives a mass; the force should
-      stay in newtons => surface - force / (9.81 k)
+    """millimetres: your depth is in millimetres, but all lengths should be in metres
+    whole-metres: your operator // rounds the depth down to whole metres. Use /
+    docstrings-numbers: your k is always 400, the value in the docstring. Use the
+      argument `k`
+    docstrings-numbers 2: your surface is always at 0.42, the value in the docstring.
+      Use the argument `surface`
+    never-below-zero: your code replaces negative heights by 0, but the commanded height
+      can be negative
+    newtons-as-weight: your code divides the force by 9.81, which gives a mass. Use the
+      force in newtons
     """
     return {
         "millimetres": surface - 1000.0 * force / k,

@@ -16,18 +16,19 @@ def damped(case: Case) -> Finding | None:
     extra = np.linalg.inv(case.S) - np.linalg.inv(case.T)
     added = np.median(extra[:, range(6), range(6)])
     if added > 1e-8 and np.abs(extra - added * np.eye(6)).max() < 0.01 * added:
-        return Finding("damped", f"{DAMPED} The number is {added:.2g}.")
+        return Finding("damped", f"{DAMPED} The added number is {added:.2g}.")
     return None
 
 
 DAMPED = (
-    "A number is added to the diagonal of J M^-1 J^T before the inversion. It keeps "
-    "Lambda finite at a singularity but makes Lambda too small elsewhere."
+    "Your code adds a number to the diagonal of J M^-1 J^T before the inversion. This "
+    "keeps Lambda finite at a singularity but makes Lambda too small elsewhere."
 )
 NEARLY_SINGULAR = HeldOut(
     "small-values-cut",
-    "Correct, but not near a singularity: in the direction in which the hand hardly "
-    "moves its inertia is large, not 0. Does a pseudo-inverse omit small values?",
+    "Your result is correct except near a singularity. In the direction in which the "
+    "hand hardly moves, its inertia is large, not 0. Does your code use a "
+    "pseudo-inverse that discards small singular values?",
     lambda rng: [(np.diag([1.0, 1.0, 1.0, 1.0, 1.0, 0.01]) @ J_CASE, 2.0 * M_CASE)],
     mistaken=lambda J, M: np.linalg.pinv(J @ np.linalg.solve(M, J.T), 1e-3),
 )
@@ -51,22 +52,21 @@ def inertia(J: Array, M: Array) -> Array:
 
 @row.wrongs
 def _(J, M):
-    """inverse-forgotten: the result is the inverse of Lambda, which maps a wrench to an
-      acceleration; Lambda maps an acceleration to a wrench => J M^-1 J^T
-    M-not-inverted: M is not inverted between J and J^T; M^-1 maps the joint torques J^T
-      F to joint accelerations => J M J^T
-    pinv-both-sides: pinv(J)^T M pinv(J) is correct for an arm of six joints. A seventh
-      joint can also give way, so the hand has less inertia => pinv(J)^T M pinv(J)
-    armature-left-out: the armature is subtracted from M, but the rotors turn with the
-      joints and belong to the inertia of the hand => Lambda of M - 0.1 I
-    armature-twice: the armature is added to M, but M already contains it => Lambda of M
-      + 0.1 I
-    diagonal-inverted: only the diagonal of J M^-1 J^T is inverted; the six directions
-      are coupled, so invert the matrix => that diagonal
-    entries-inverted: the expression 1 / A inverts each entry; use the matrix inverse =>
-      1 / (J M^-1 J^T)
-    blocks-alone: the two 3x3 blocks are inverted separately; a force also rotates the
-      hand, so invert the whole 6x6 matrix => the inverse of each block
+    """inverse-forgotten: your code returns the inverse of Lambda, which maps a wrench
+      to an acceleration. Lambda should map an acceleration to a wrench
+    M-not-inverted: your code uses M between J and J^T. Use M^-1, because M^-1 maps the
+      joint torques J^T F to joint accelerations
+    pinv-both-sides: your result pinv(J)^T M pinv(J) is correct for an arm of six
+      joints. A seventh joint can also give way, so the hand has less inertia
+    armature-left-out: your code subtracts the armature (the rotor inertia of the
+      motors) from M, but the rotors rotate with the joints and contribute to the
+      inertia at the hand
+    armature-twice: your code adds the armature to M, but M already contains it
+    diagonal-inverted: your code inverts only the diagonal of J M^-1 J^T. The six
+      directions are coupled, so invert the whole matrix
+    entries-inverted: your expression 1 / A inverts each entry. Use the matrix inverse
+    blocks-alone: your code inverts the two 3x3 blocks separately. A force also rotates
+      the hand, so invert the whole 6x6 matrix
     """
     A = J @ np.linalg.solve(M, J.T)
     back = np.linalg.pinv(J)

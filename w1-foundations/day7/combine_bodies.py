@@ -44,22 +44,24 @@ def whole(m1, c1, I1, m2, c2, I2, c, theorem=parallel_axes):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """no-parallel-axes: the two inertias are added unchanged. Each is about its own
-      centre of mass, so move both to the common centre first => the plain sum
-    about-the-origin: the inertia is about the origin of the frame. It should be about
-      the common centre of mass => the answer about the origin
-    only-the-second-moved: only the second inertia is moved to the common centre. The
-      first centre of mass differs from the common one, too
-    only-the-first-moved: only the first inertia is moved to the common centre of mass
-    about-the-first-centre: the inertia is about the first body's centre of mass. It
-      should be about the common one => the answer about the first centre
-    distance-of-the-two: the parallel-axis theorem uses the distance between the two
-      bodies. Use the distance of each body from the common centre of mass
-    mass-not-in-the-theorem: the parallel-axis theorem lacks the mass of the body. The
-      inertia changes by m ((d . d) E - d d^T), where E is the identity => the answer
-      without the mass
-    total-mass-for-each: the parallel-axis theorem uses the total mass for each body.
-      Use the mass of the body that is moved => the answer with m1 + m2
+    """no-parallel-axes: your code adds the two inertias unchanged. Each inertia is
+      about its own centre of mass, so move both to the common centre first
+    about-the-origin: your inertia is about the origin of the frame. It should be about
+      the common centre of mass
+    only-the-second-moved: your code moves only the second inertia to the common centre
+      of mass. The first body's centre of mass also differs from the common centre, so
+      move both
+    only-the-first-moved: your code moves only the first inertia to the common centre of
+      mass. The second body's centre of mass also differs from the common centre, so
+      move both
+    about-the-first-centre: your inertia is about the first body's centre of mass. It
+      should be about the common centre of mass
+    distance-of-the-two: your parallel-axis theorem uses the distance between the two
+      centres of mass. Use the distance of each centre of mass from the common centre
+    mass-not-in-the-theorem: your parallel-axis theorem lacks the mass of the body. The
+      theorem adds m ((d . d) E - d d^T), where E is the identity
+    total-mass-for-each: your parallel-axis theorem uses the total mass for each body.
+      Use the mass of the body whose inertia is moved
     """
     c = centre(m1, c1, m2, c2)
     own = I1 + I2
@@ -80,11 +82,10 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """products-not-moved: the parallel-axis theorem changes the moments of inertia
-      only. The outer product d d^T also has off-diagonal entries => the answer with the
-      diagonal of d d^T
-    distance-not-squared: the parallel-axis theorem uses the distance; it should use
-      the squared distance d . d => the answer with |d|
+    """products-not-moved: your parallel-axis theorem changes only the moments of
+      inertia, but the outer product d d^T also has off-diagonal entries
+    distance-not-squared: your parallel-axis theorem uses the distance itself. It should
+      use the squared distance d . d
     """
     c = centre(m1, c1, m2, c2)
     theorems = {
@@ -98,10 +99,11 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """plain-mean: the common centre is the midpoint of the two centres of mass. Weight
-      each centre by the mass of its body => the answer with the midpoint
-    not-divided-by-the-mass: the sum of m c is not divided by the total mass
-    first-centre-kept: the common centre of mass is set to c1 => the answer with c1
+    """plain-mean: your common centre is the midpoint of the two centres of mass. Weight
+      each centre by the mass of its body
+    not-divided-by-the-mass: your code does not divide the sum of m c by the total mass
+    first-centre-kept: your code sets the common centre of mass to c1. It should be the
+      mean of c1 and c2, weighted by the masses
     """
     centres = {
         "plain-mean": (c1 + c2) / 2,
@@ -113,12 +115,14 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """by-rows: the six entries of the inertia are in the order xx, xy, xz, yy, yz, zz.
-      The three diagonal entries come first => the answer in that order
-    xy-last: the last three entries are in the order yz, xz, xy; xy comes first
-    products-negated: the last three entries have the opposite sign. They are entries of
-      the inertia matrix, so xy is the sum of -m x y
-    mass-of-the-first: the mass includes only the first body => the answer with m1
+    """by-rows: the six entries of your inertia are in the order xx, xy, xz, yy, yz, zz.
+      The three diagonal entries should come first
+    xy-last: your last three entries are in the order yz, xz, xy. They should be in the
+      order xy, xz, yz
+    products-negated: your last three entries have the opposite sign. They are entries
+      of the inertia matrix, so xy is the sum of -m x y
+    mass-of-the-first: your mass includes only the first body. It should be the mass of
+      both bodies
     """
     right = combine_bodies(m1, c1, I1, m2, c2, I2)
     return {

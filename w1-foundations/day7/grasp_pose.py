@@ -39,19 +39,19 @@ def tool(T_world_cube, above, yaw):
 
 @row.wrongs
 def _(T_world_cube, above):
-    """yaw-not-folded: the tool has the full yaw of the cube. A rotation by 90 degrees
+    """yaw-not-folded: your tool has the full yaw of the cube. A rotation by 90 degrees
       does not change a cube, so a yaw within 45 degrees of 0 is enough
-    folded-to-90: the yaw of the tool is between 0 and 90 degrees; it should be between
-      -45 and 45 degrees => the pose with the yaw modulo 90 degrees
-    rounded-towards-zero: the number of quarter turns is truncated, so a yaw of up to 90
-      degrees remains. Round it to the nearest integer => the pose with truncation
-    folded-by-half-turns: multiples of 180 degrees are subtracted. A cube looks the same
-      after 90 degrees already => the pose with half turns subtracted
-    yaw-forgotten: the yaw of the tool is always 0, so the fingers meet the edges of a
-      rotated cube => the pose at yaw 0
-    turned-the-wrong-way: the tool rotates in the opposite direction to the cube. Check
+    folded-to-90: your tool has a yaw between 0 and 90 degrees. The yaw should be
+      between -45 and 45 degrees
+    rounded-towards-zero: your code truncates the number of quarter turns, so a yaw of
+      up to 90 degrees remains. Round this number to the nearest integer
+    folded-by-half-turns: your code subtracts multiples of 180 degrees, but a cube
+      already looks the same after 90 degrees
+    yaw-forgotten: your tool always has the yaw 0, so the fingers meet the edges of a
+      rotated cube
+    turned-the-wrong-way: your tool rotates in the opposite direction to the cube. Check
       the sign of the yaw and the arguments of arctan2, then the order of the product
-      with diag(1, -1, -1) => the pose with the opposite yaw
+      with diag(1, -1, -1)
     """
     yaw = np.arctan2(T_world_cube[1, 0], T_world_cube[0, 0])
     yaws = {
@@ -67,11 +67,11 @@ def _(T_world_cube, above):
 
 @row.wrongs
 def _(T_world_cube, above):
-    """tool-up: the z axis of the tool points up; it should point down
-    about-y: the tool is turned over about its y axis. At yaw 0 its x axis points
-      backwards; it should be the world's x axis => the pose with diag(-1, 1, -1)
-    left-handed: only the z axis is reversed, so the matrix is a reflection with
-      determinant -1. A rotation reverses two axes => the pose with diag(1, 1, -1)
+    """tool-up: the z axis of your tool points up. It should point down
+    about-y: your tool is turned over about its y axis, so at yaw 0 its x axis points
+      backwards. At yaw 0, this axis should be the world x axis
+    left-handed: your code reverses only the z axis, so the matrix is a reflection with
+      determinant -1. A rotation reverses two axes
     """
     right = grasp_pose(T_world_cube, above)
     own = right @ np.diag([1.0, -1.0, -1.0, 1.0])

@@ -57,25 +57,24 @@ def line(T0, T1, s, turn):
 
 @row.wrongs
 def _(T0, T1, s):
-    """by-entries: the entries of R are interpolated linearly. Between the two ends the
-      result is not a rotation matrix => the weighted mean of the entries
-    entries-made-a-rotation: the entries of R are interpolated linearly and projected
-      onto a rotation. The angular velocity is then not constant => the nearest rotation
-    nlerp: the quaternions are interpolated linearly and normalised. The angular
-      velocity is then not constant => the normalised mean of the quaternions
-    turn-in-world-axes: the rotation R1 R0^T is expressed in the world frame, but it
-      multiplies R0 from the right, where a rotation expressed in the first frame
-      belongs => R0 exp(s log(R1 R0^T))
-    turn-on-the-left: the rotation R0^T R1 is expressed in the first frame, but it
-      multiplies R0 from the left, where a rotation expressed in the world frame belongs
-      => exp(s log(R0^T R1)) R0
-    turn-backwards: the rotation has the opposite sense, because R1^T R0 is the rotation
-      from R1 to R0 => R0 exp(s log(R1^T R0))
-    logarithms-mixed: the rotation vectors of R0 and R1 are interpolated linearly.
-      Rotations about different axes do not add => the exponential of their mean
-    not-turned: the orientation remains R0 for every s => R0
-    turned-at-once: the orientation is R1 for every s. Multiply the angle of the
-      rotation by s => R1
+    """by-entries: your code interpolates the entries of R linearly, so the result
+      between the two ends is not a rotation matrix
+    entries-made-a-rotation: your code interpolates the entries of R linearly and
+      projects the result onto the rotation matrices, so the angular velocity is not
+      constant
+    nlerp: your code interpolates the quaternions linearly and normalises the result, so
+      the angular velocity varies
+    turn-in-world-axes: your rotation R1 R0^T is expressed in the world frame, so it
+      should multiply R0 from the left, not from the right
+    turn-on-the-left: your rotation R0^T R1 is expressed in the first frame, so it
+      should multiply R0 from the right, not from the left
+    turn-backwards: your rotation is in the opposite direction, because R1^T R0 is the
+      rotation from R1 to R0
+    logarithms-mixed: your code interpolates the rotation vectors of R0 and R1 linearly,
+      but rotations about different axes do not add
+    not-turned: your orientation is R0 for every s. It should reach R1 at s = 1
+    turned-at-once: your orientation is R1 for every s. Multiply the angle of the
+      rotation by s
     """
     R0, R1 = T0[:3, :3], T1[:3, :3]
     w0 = log_rotation(R0)
@@ -95,8 +94,8 @@ def _(T0, T1, s):
 
 @row.wrong
 def screw_motion(T0, T1, s):
-    """your path is the screw motion from T0 to T1, whose origin moves on an arc. The
-    task asks for a straight line => T0 exp(s log(T0^-1 T1))"""
+    """your path is the screw motion from T0 to T1, whose origin moves along a curve.
+    The task requires a straight line"""
     T = se3.inverse(T0) @ T1
     w = log_rotation(T[:3, :3])
     p = T[:3, 3]
@@ -110,8 +109,8 @@ def screw_motion(T0, T1, s):
 
 @row.wrong
 def way_in_the_first_frame(T0, T1, s):
-    """the displacement p1 - p0 is rotated by R0, but both positions are expressed in
-    the world frame already => p0 + s R0 (p1 - p0)"""
+    """your code rotates the displacement p1 - p0 by R0, but both positions are already
+    expressed in the world frame"""
     p0, p1 = T0[:3, 3], T1[:3, 3]
     R = interpolate_pose(T0, T1, s)[:3, :3]
     return se3.make_T(R, p0 + s * T0[:3, :3] @ (p1 - p0))

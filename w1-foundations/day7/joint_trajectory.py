@@ -29,25 +29,23 @@ def wrapped(angles):
 
 @row.wrongs
 def _(q0, q1, t, T):
-    """start-everywhere: q0 is also added to the velocity and the acceleration. The
-      start q0 is constant, so its derivative is 0 => the answer with q0 in every row
-    goal-for-way: q1 is used instead of the displacement q1 - q0, so the motion ends at
-      q0 + q1 => the answer with q1 for q1 - q0
-    way-reversed: the displacement is q0 - q1, so the arm moves away from the goal =>
-      the answer with q0 - q1
-    speed-forwards-only: the sign of the displacement is lost, so every joint moves in
-      the positive direction => the answer with |q1 - q0|
-    rates-without-way: the velocity and the acceleration are sd and sdd for every joint.
-      Multiply them by the displacement of the joint
-    rates-of-the-goal: the velocity and the acceleration use q1 instead of the
-      displacement q1 - q0 => the answer with q1 sd and q1 sdd
-    rates-divided-again: the velocity and the acceleration are divided by the duration,
-      but sd and sdd are derivatives with respect to t already => the answer with sd /
-      duration and sdd / duration^2
-    q-wrapped: the angles are wrapped to [-pi, pi]. A joint angle is not a direction:
-      joint6 reaches 3.75 rad => the answer with q wrapped
-    way-wrapped: the displacement is wrapped to [-pi, pi]. A joint cannot rotate past
-      its limits to shorten its path => the answer with q1 - q0 wrapped
+    """start-everywhere: your code also adds q0 to the velocity and the acceleration,
+      but the derivatives of the constant q0 are 0
+    goal-for-way: your code uses q1 instead of the displacement q1 - q0, so the motion
+      ends at q0 + q1 instead of q1
+    way-reversed: your displacement is q0 - q1, so the arm moves away from the goal
+    speed-forwards-only: your code loses the sign of the displacement, so every joint
+      moves in the positive direction
+    rates-without-way: your velocity and acceleration are sd and sdd for every joint.
+      Multiply both by the joint's displacement
+    rates-of-the-goal: your velocity and acceleration use q1 instead of the displacement
+      q1 - q0
+    rates-divided-again: your code divides the velocity and the acceleration by powers
+      of the duration, but sd and sdd are already derivatives with respect to t
+    q-wrapped: your code wraps the angles to [-pi, pi], but a joint angle with limits is
+      not periodic. For example, joint6 can reach 3.75 rad
+    way-wrapped: your code wraps the displacement to [-pi, pi], but a joint cannot
+      rotate past its limits to shorten its path
     """
     displacement = q1 - q0
     scaling = quintic_scaling(t, T)

@@ -16,9 +16,8 @@ def _(rng):
 
 @row.wrong(
     "one-finger",
-    "only one finger's friction is included. Both fingers press on the cube, so "
+    "your code includes only one finger's friction. Both fingers press on the cube, so "
     "friction acts on two faces",
-    "the mass for one face",
 )
 def _(grip, mu, acceleration):
     return mu * grip / (G + acceleration)
@@ -28,8 +27,7 @@ for g in (9.8, 10, 9.80665):
 
     @row.wrong(
         "another-gravity",
-        f"the gravity in your function is {g} m/s2; the lab's GRAVITY is 9.81 m/s2",
-        f"the mass with {g}",
+        f"the gravity in your function is {g} m/s2, but the lab's GRAVITY is 9.81 m/s2",
     )
     def _(grip, mu, acceleration, g=g):
         return 2 * mu * grip / (g + acceleration)

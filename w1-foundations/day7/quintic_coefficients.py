@@ -20,9 +20,9 @@ SINGULAR = Slip(
     "LinAlgError: Singular",
     "",
     "singular",
-    "The matrix is singular, because two of its rows are the same condition. The six "
-    "rows are the position, the velocity and the acceleration at either end. What is "
-    "the derivative of t^n?",
+    "Your matrix is singular, because its rows are linearly dependent. The six rows "
+    "should express the position, the velocity and the acceleration at both ends. What "
+    "is the derivative of t^n?",
 )
 
 
@@ -48,7 +48,7 @@ def which_condition(case: Case) -> Finding | None:
     return Finding(
         "one-condition-not-kept",
         f"Your polynomial satisfies five of the six conditions, but not {which}. Look "
-        "at this row of the matrix and at its entry on the right-hand side.",
+        "at the row of the matrix for this condition and at its right-hand side.",
     )
 
 
@@ -71,19 +71,19 @@ def _(rng):
 
 @row.wrongs
 def _(start, end, T):
-    """in-powers-of-x: your coefficients belong to powers of t / duration; the task asks
-      for powers of t
-    T-is-1: the duration has no effect, because the conditions at the end are written
-      for t = 1 => the answer for a duration of 1 s
-    cubic: your polynomial is a cubic, which omits both conditions on the acceleration
-      => the cubic
-    accelerations-zero: the accelerations at both ends are set to 0. Use the given ones
-    rest-to-rest: the velocities and the accelerations at both ends are set to 0. Use
-      the given ones
-    two-forgotten: the second derivative of t^2 is 2, but your matrix has 1 in the row
-      of the acceleration at the start => the answer with 1 in that row
-    conditions-mixed-up: the right-hand side alternates between start and end, but the
-      rows of the matrix do not
+    """in-powers-of-x: your coefficients belong to powers of t / duration, but the task
+      asks for powers of t
+    T-is-1: your conditions at the end are written for t = 1, so the duration has no
+      effect
+    cubic: your polynomial is a cubic, which omits both acceleration conditions
+    accelerations-zero: your code sets the accelerations at both ends to 0. Use the
+      given accelerations
+    rest-to-rest: your code sets the velocities and the accelerations at both ends to 0.
+      Use the given values
+    two-forgotten: your matrix has 1 for t^2 in the row of the initial acceleration, but
+      the second derivative of t^2 is 2
+    conditions-mixed-up: your right-hand side alternates between start and end, but the
+      rows of your matrix do not. Use the same order in both
     """
     A = conditions(T)
     four = np.linalg.solve(A[[0, 1, 3, 4], :4], [*start[:2], *end[:2]])

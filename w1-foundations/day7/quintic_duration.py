@@ -11,7 +11,8 @@ from robo47.trajectory import PEAK_ACCELERATION, PEAK_SPEED
 NO_LIMIT = 1e9  # rad/s2, in the docstring's case
 NO_WAY = HeldOut(
     "no-way",
-    "Your function is right except when no joint moves: the duration is then 0 s.",
+    "Your function is correct except if no joint moves. The duration should then be "
+    "0 s.",
     lambda rng: [(np.zeros(7), SPEED_LIMITS, ACC_LIMITS)],
 )
 
@@ -24,7 +25,9 @@ def never_less(case: Case) -> Finding | None:
         return None
     if case.T[off].max() > min(least, case.T[~off].min()):
         return None
-    says = f"The result is never below {least:g} s. A short motion needs less time."
+    says = (
+        f"Your result is never below {least:g} s, but a short motion needs less time."
+    )
     return Finding("never-less", says)
 
 
@@ -54,10 +57,10 @@ def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERAT
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """least-of-all: the result is the shortest duration of all joints and limits; the
-      slowest joint determines the duration => the minimum
-    added-up: the durations of all joints and limits are added; the joints move at the
-      same time => the sum
+    """least-of-all: your code returns the shortest of all durations, but the joint and
+      the limit with the longest duration determine the result
+    added-up: your code adds the durations of all joints and limits, but the joints move
+      at the same time. Use the longest duration
     """
     each = seconds(delta_q, v_max, a_max)
     return {"least-of-all": each.min(), "added-up": each.sum()}
@@ -66,16 +69,13 @@ def _(delta_q, v_max, a_max):
 @row.wrongs
 def _(delta_q, v_max, a_max):
     """peak-of-the-cubic: your function uses 1.5, the maximum velocity of the cubic
-      scaling. The quintic is faster half way and exceeds the limit by 25 % => the
-      duration with 1.5
+      scaling. The quintic is faster halfway and exceeds the limit by 25 %
     peak-of-the-cubic 2: your function uses 6, the maximum acceleration of the cubic
       scaling. The quintic has its maximum where the derivative of its acceleration is 0
-      => the duration with 6
-    peak-of-the-cubic 3: your function uses 1.5 and 6, the maxima of the cubic scaling.
-      The quintic has other maxima => the duration with 1.5 and 6
+    peak-of-the-cubic 3: your function uses 1.5 and 6, the maximum velocity and
+      acceleration of the cubic scaling. The quintic has other maxima
     peak-at-a-quarter: your function uses 5.625, the acceleration at a quarter of the
-      duration. The maximum is where the derivative of the acceleration is 0 => the
-      duration with 5.625
+      duration. The maximum occurs where the derivative of the acceleration is 0
     """
     peaks = {
         "peak-of-the-cubic": {"speed": 1.5},
@@ -90,36 +90,36 @@ def _(delta_q, v_max, a_max):
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """limits-of-different-joints: the largest displacement is combined with the lowest
-      limit. Use the displacement and the limit of the same joint => max(delta_q) over
-      min(a_max) for the acceleration
-    both-added: the duration for the velocity and the duration for the acceleration are
-      added. The longer one satisfies both limits => the sum of both, joint by joint
-    both-added 2: the duration for the velocity and the duration for the acceleration
-      are added. The longer one satisfies both limits => the sum of both maxima
-    shorter-of-two: the shorter of the two durations is returned, which violates one of
-      the limits => the minimum of the two maxima
-    shorter-of-two 2: each joint takes the shorter of its two durations, which violates
-      one of its limits => the maximum of these minima
-    fastest-joint: the duration of the fastest joint is returned, so all other joints
-      violate their limits => the minimum over the joints
-    fastest-joint 2: each limit uses the duration of the fastest joint, so the other
-      joints violate it => the larger of the two minima
-    one-length: the norm of delta_q is used as one displacement. Each joint has its own
-      displacement and its own limits => the duration of |delta_q| with the lowest
-      limits
-    summed: the durations of the joints are added, but the joints move at the same time
-    mean: the mean of the joints' durations is returned, so the slower joints violate
-      their limits
-    longest-way: only the joint with the largest displacement is used. A joint with
-      lower limits may need more time => the duration of that joint
-    one-limit-for-all: the limits of the first joint are used for all joints
-    one-limit-for-all 2: the lowest limits are used for all joints. Each joint has its
-      own limits
-    speed-only: only the velocity limits are used. A short motion then exceeds the
+    """limits-of-different-joints: your code combines the largest displacement with the
+      lowest limit. Use the displacement and the limit of the same joint
+    both-added: your code adds the duration for the velocity and the duration for the
+      acceleration. The longer of the two already satisfies both limits
+    both-added 2: your code adds the duration for the velocity and the duration for the
+      acceleration. The longer of the two already satisfies both limits
+    shorter-of-two: your code returns the shorter of the two durations, which violates
+      one of the limits
+    shorter-of-two 2: each joint in your code takes the shorter of its two durations,
+      which violates one of its limits
+    fastest-joint: your code returns the shortest duration of all joints, so the other
+      joints violate their limits
+    fastest-joint 2: your code uses the shortest duration of all joints for each limit,
+      so the other joints violate their limits
+    one-length: your code uses the norm of delta_q for all joints, but each joint has
+      its own displacement and its own limits
+    summed: your code adds the durations of the joints, but the joints move at the same
+      time. Use the longest duration
+    mean: your code returns the mean of the joints' durations, so the slower joints
+      violate their limits
+    longest-way: your code uses only the joint with the largest displacement. A joint
+      with lower limits may need more time
+    one-limit-for-all: your code uses the limits of the first joint for all joints, but
+      each joint has its own limits
+    one-limit-for-all 2: your code uses the lowest limits for all joints, but each joint
+      has its own limits
+    speed-only: your code uses only the velocity limits, so a short motion exceeds the
       acceleration limits
-    acceleration-only: only the acceleration limits are used. A long motion then exceeds
-      the velocity limits => the duration for the acceleration
+    acceleration-only: your code uses only the acceleration limits, so a long motion
+      exceeds the velocity limits
     """
     each = seconds(delta_q, v_max, a_max)
     i = np.argmax(np.abs(delta_q))

@@ -44,11 +44,11 @@ def polynomial(coefficients, x, T):
 
 
 def jumps(t, T):
-    """cubic: s is the cubic 3 x^2 - 2 x^3, whose acceleration jumps at both ends. The
-      acceleration of the quintic is 0 there => the cubic
-    linear: s grows at a constant rate, so the velocity jumps at both ends => s = x
-    cosine: s is (1 - cos(pi x)) / 2, whose acceleration jumps at both ends. The
-      acceleration of the quintic is 0 there => the cosine
+    """cubic: your s is the cubic 3 x^2 - 2 x^3, whose acceleration jumps at both ends.
+      The acceleration of the quintic is 0 there
+    linear: your s grows at a constant rate, so the velocity jumps at both ends
+    cosine: your s is (1 - cos(pi x)) / 2, whose acceleration jumps at both ends. The
+      acceleration of the quintic is 0 there
     """
     x = np.clip(t / T, 0.0, 1.0)
     a = np.pi * x
@@ -74,21 +74,23 @@ row.wrongs(jumps_to_rest)
 
 @row.wrongs
 def _(t, T):
-    """septic: s is the polynomial of degree 7, which also has jerk 0 at both ends. The
-      task asks for degree 5 => the polynomial of degree 7
-    6-and-10-swapped: the coefficients 6 and 10 are swapped. s ends at 1, but its
-      velocity there is not 0 => the quintic with 6 and 10 swapped
-    sd-and-sdd-not-divided: sd and sdd are derivatives with respect to x = t / duration.
-      By the chain rule, each derivative with respect to t also divides by the duration
-    t-for-x: the polynomial is evaluated at t instead of t / duration, so the duration
-      has no effect => the quintic of t
-    not-divided+not-clipped: your code has two mistakes: sd and sdd are not divided by
-      the duration and its square, and the polynomial continues before the start and
+    """septic: your s is the polynomial of degree 7, which also has jerk 0 at both ends.
+      The task asks for degree 5
+    6-and-10-swapped: your code swaps the coefficients 6 and 10. At the end s is 1, but
+      the velocity is not 0
+    sd-and-sdd-not-divided: your sd and sdd are derivatives with respect to x = t /
+      duration. By the chain rule, sd has to be divided by the duration, and sdd by its
+      square
+    t-for-x: your code evaluates the polynomial at t instead of t / duration, so the
+      duration has no effect
+    not-divided+not-clipped: your code does not divide sd and sdd by the duration and
+      its square, respectively, and it evaluates the polynomial before the start and
       after the end
-    end-not-clipped: your code handles t < 0 but not t > duration, so the polynomial
-      continues after the end. For t > duration, use s = 1 with zero velocity and
+    end-not-clipped: your code handles t < 0 but not t > duration, so it evaluates the
+      polynomial after the end. For t > duration, use s = 1 with zero velocity and
       acceleration, because the robot is at rest again
-    never-clipped: the polynomial is also evaluated before the start and after the end
+    never-clipped: your code also evaluates the polynomial before the start and after
+      the end, but there the robot should be at rest
     start-not-clipped: your code handles t > duration but not t < 0, so it evaluates the
       polynomial before the start. For t < 0, use s = 0 with zero velocity and
       acceleration, because the robot is still at rest
@@ -109,18 +111,17 @@ def _(t, T):
 
 @row.wrongs
 def _(t, T):
-    """sd-not-divided: sd is the derivative with respect to x = t / duration. By the
-      chain rule, the derivative with respect to t also divides by the duration => the
-      answer with sd times the duration
-    sdd-not-divided: sdd is the derivative with respect to x = t / duration. By the
-      chain rule, the derivative with respect to t also divides by the duration, twice
-      => the answer with sdd times the square of the duration
-    sdd-divided-once: sdd is divided by the duration only once, but it is a second
-      derivative => the answer with sdd times the duration
-    multiplied-by-T: sd and sdd are multiplied by the duration, where the chain rule
-      divides by it => the answer with the duration and its square as factors
-    only-s-clipped: s is clamped at both ends, but sd and sdd are not: they are not 0
-      before the start and after the end
+    """sd-not-divided: your sd is the derivative with respect to x = t / duration. By
+      the chain rule, the derivative with respect to t also has the factor 1 / duration
+    sdd-not-divided: your sdd is the derivative with respect to x = t / duration. By the
+      chain rule, the second derivative with respect to t also has the factor 1 /
+      duration^2
+    sdd-divided-once: your code divides sdd by the duration only once, but sdd is a
+      second derivative
+    multiplied-by-T: your code multiplies sd and sdd by the duration. By the chain rule,
+      it should divide instead
+    only-s-clipped: your code clamps s at both ends, but not sd and sdd. They should be
+      0 before the start and after the end
     """
     right = quintic_scaling(t, T)
     return {

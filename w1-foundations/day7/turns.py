@@ -51,31 +51,33 @@ def _not_turned(T0: Array, T1: Array, s: float) -> Array:
 TURNS = [
     HeldOut(
         "half-turn-for-none",
-        "Your function is right except for a rotation by 180 degrees: at s = 1 the "
-        "orientation is still R0. The sine is 0 there, as it is for no rotation. Which "
-        "quantity distinguishes the two?",
+        "Your function is correct except for a rotation by 180 degrees, where the "
+        "orientation at s = 1 is still R0. The sine of the angle is 0 there, as it is "
+        "without a rotation. Which quantity distinguishes these two cases?",
         _half,
         mistaken=_not_turned,
     ),
     HeldOut(
         "wrong-at-pi",
-        "Your function is right except for rotations by 180 degrees or slightly less. "
-        "There R - R^T with R = R0^T R1 is nearly 0 and does not determine the axis. "
-        "R + R^T determines the axis, including the signs of its components.",
+        "Your function is correct except for rotations by 180 degrees or slightly "
+        "less. With R = R0^T R1, R - R^T is nearly 0 there and does not determine the "
+        "axis. R + R^T determines the axis, including the relative signs of its "
+        "components.",
         _half_or_nearly,
     ),
     HeldOut(
         "small-turn-for-none",
-        "Your function is right except for very small rotations: the orientation "
-        "remains R0. Below which angle does your function skip the rotation?",
+        "Your function is correct except for very small rotations, where the "
+        "orientation remains R0. Below which angle does your function skip the "
+        "rotation?",
         lambda rng: _small(rng, (TINY,)),
         mistaken=_not_turned,
         near=1e-9,
     ),
     HeldOut(
         "wrong-near-0",
-        "Your function is right except for rotations by 2 degrees or less. Which case "
-        "of your function replaces the general formula there?",
+        "Your function is correct except for rotations by 2 degrees or less. Which "
+        "case of your function replaces the general formula there?",
         _small,
     ),
 ]

@@ -54,23 +54,23 @@ def exp_of(xi):
 
 @row.wrongs
 def _(T, xi):
-    """on-the-right: the exponential multiplies T on the right, as for a twist in the
-      moved frame. xi is expressed in the frame in which T is given => T exp([xi])
-    apart: R is rotated and v is added to t; a rotation about the origin moves t as well
-      => (exp([omega]) R, t + v)
-    first-order: the result is T + [xi] T, which is not a rigid transform. Use the
-      exponential => (1 + [xi]) T
-    t-not-turned: t is not rotated; a rotation about the origin moves t as well =>
-      exp([omega]) R with t plus the translation of the exponential
-    v-as-translation: the translation of the exponential is v, which is correct only if
-      omega is 0 or parallel to v => v as the translation
-    length-lost: xi is normalised and the angle is 1; the angle is the norm of omega =>
-      exp of xi / |omega|
-    slides-left-out: if omega is 0, T is returned unchanged; the translation is then v
-      => T where omega is 0
-    identity-where-still: for xi = 0 the identity is returned. Return T
-    turns-only: v, the linear part of xi, is not used
-    slides-only: omega, the angular part of xi, is not used
+    """on-the-right: your exponential multiplies T on the right, as for a twist in the
+      moved frame. The twist xi is expressed in the frame in which T is given
+    apart: your code rotates R and adds v to t, but a rotation about the origin moves t
+      as well
+    first-order: your result is T + [xi] T, which is not a rigid transform. Use the
+      exponential
+    t-not-turned: your code does not rotate t, but a rotation about the origin moves t
+      as well
+    v-as-translation: your translation of the exponential is v, which is correct only if
+      omega is 0 or parallel to v
+    length-lost: your code normalises xi and uses the angle 1, but the angle is the norm
+      of omega
+    slides-left-out: if omega is 0, your code returns T unchanged, but the translation
+      is then v
+    identity-where-still: for xi = 0 your code returns the identity. Return T
+    turns-only: your code does not use v, the linear part of xi
+    slides-only: your code does not use omega, the angular part of xi
     """
     E = exp_of(xi)
     W = np.zeros((4, 4))
@@ -102,7 +102,7 @@ row.of_argument(
     "xi",
     Change(
         "unit-screw",
-        "xi is divided by its norm; the angle is the norm of omega alone",
+        "your code divides xi by its norm, but the angle is the norm of omega alone",
         lambda xi: xi / (np.linalg.norm(xi) or 1.0),
     ),
 )

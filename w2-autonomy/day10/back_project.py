@@ -55,69 +55,72 @@ def not_scaled(ray, d):
     return ray
 
 
-for slug, says, redone, other in (
-    ("range-for-depth", "the depth is used as the distance along the ray; the depth is "
-     "measured along the z axis of the camera", "a ray of norm 1",
+for slug, says, other in (
+    ("range-for-depth", "your code uses the depth as the distance along the ray, but "
+                        "the depth is measured along the z axis of the camera",
      {"ray": unit_ray}),
-    ("K-for-its-inverse", "the pixel is multiplied by K; K maps points to pixels, so "
-     "use its inverse", "K instead of its inverse", {"ray": lambda K, h, d: h @ K.T}),
-    ("centre-forgotten", "the principal point is not subtracted from the pixel",
-     "(u / f, v / f, 1)", {"ray": lambda K, h, d: h / [K[0, 0], K[1, 1], 1]}),
-    ("centre-added", "the principal point is added to the pixel. Subtract it",
-     "(u + cx) / f", {"ray": lambda K, h, d: (h + K[:, 2] * [1, 1, 0])
+    ("K-for-its-inverse", "your code multiplies the pixel by K, but K maps points to "
+                          "pixels, so use its inverse",
+                          {"ray": lambda K, h, d: h @ K.T}),
+    ("centre-forgotten", "your code does not subtract the principal point from the "
+                         "pixel", {"ray": lambda K, h, d: h / [K[0, 0], K[1, 1], 1]}),
+    ("centre-added", "your code adds the principal point to the pixel. Subtract it",
+     {"ray": lambda K, h, d: (h + K[:, 2] * [1, 1, 0])
                       / [K[0, 0], K[1, 1], 1]}),
-    ("centre-swapped", "cx and cy are swapped: cx belongs to u", "(cy, cx)",
+    ("centre-swapped", "your code swaps cx and cy. The coordinate cx belongs to u",
      {"ray": lambda K, h, d: right_ray(swapped(K), h)}),
-    ("x-and-y-turned-round", "x and y are negated; x points to the right like u, and y "
-     "points down like v", "(-x, -y, z)",
+    ("x-and-y-turned-round", "your code negates x and y, but x points to the right "
+                             "like u, and y points down like v",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, -1, 1]}),
-    ("x-left", "x is negated; both x and u point to the right", "(-x, y, z)",
+    ("x-left", "your code negates x, but both x and u point to the right",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, 1, 1]}),
-    ("f-multiplied", "the distance from the principal point is multiplied by f. Divide "
-     "it by f", "(u - cx) f", {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
+    ("f-multiplied", "your code multiplies the distance from the principal point by f. "
+                     "Divide it by f", {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
                                * [K[0, 0], K[1, 1], 1]}),
-    ("f-forgotten", "the focal length is missing: divide the distance from the "
-     "principal point by f", "(u - cx, v - cy, 1)",
+    ("f-forgotten", "your code omits the focal length. Divide the distance from the "
+                    "principal point by f",
      {"ray": lambda K, h, d: h - K[:, 2] * [1, 1, 0]}),
-    ("y-up", "y is negated; both y and v point down", "(x, -y, z)",
+    ("y-up", "your code negates y, but both y and v point down",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, 1]}),
-    ("view-along-minus-z", "z is negated; the camera looks along +z", "(x, y, -z)",
+    ("view-along-minus-z", "your code negates z, but the camera looks along +z",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, 1, -1]}),
-    ("mujoco-axes", "y and z are negated, as for MuJoCo's camera frame. T_world_cam is "
-     "already the pose of a frame with y down and z forward", "(x, -y, -z)",
+    ("mujoco-axes", "your code negates y and z, as for MuJoCo's camera frame. "
+                    "T_world_cam is already the pose of a frame with y down and z "
+                    "forward",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, -1]}),
-    ("middle-added", "half a pixel is added; (0.5, 0.5) is already the centre of the "
-     "first pixel", "pixels + 0.5", {"pixel": lambda uv: uv + 0.5}),
-    ("middle-taken-off", "half a pixel is subtracted; (0, 0) is the corner of the "
-     "image, and the principal point is measured from there", "pixels - 0.5",
+    ("middle-added", "your code adds half a pixel, but (0.5, 0.5) is already the "
+                     "centre of the first pixel", {"pixel": lambda uv: uv + 0.5}),
+    ("middle-taken-off", "your code subtracts half a pixel, but (0, 0) is the corner "
+                         "of the image, and the principal point is measured from there",
      {"pixel": lambda uv: uv - 0.5}),
-    ("depth-only-in-z", "only z is multiplied by the depth; x and y are also "
-     "proportional to the depth", "(x, y, depth)",
+    ("depth-only-in-z", "your code multiplies only z by the depth, but x and y are "
+                        "also proportional to the depth",
      {"scaled": lambda ray, d: np.hstack([ray[:, :2], d])}),
-    ("depth-added", "the depth is added to z. Multiply the whole ray by it",
-     "z + depth", {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
-    ("depth-in-the-pixel", "the depth replaces the 1 in (u, v, 1). Multiply "
-     "K^-1 (u, v, 1) by the depth", "K^-1 (u, v, depth)",
+    ("depth-added", "your code adds the depth to z. Multiply the whole ray by it",
+     {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
+    ("depth-in-the-pixel", "your code replaces the 1 in (u, v, 1) by the depth. "
+                           "Multiply K^-1 (u, v, 1) by the depth",
      {"ray": lambda K, h, d: right_ray(K, h * [1, 1, 0] + d * [0, 0, 1]),
       "scaled": not_scaled}),
-    ("moved-before-scaled", "the ray is transformed by T before it is multiplied by "
-     "the depth, which then also scales the translation", "depth times (T ray)",
+    ("moved-before-scaled", "your code transforms the ray by T before it multiplies "
+                            "the ray by the depth, so the depth also scales the "
+                            "translation",
      {"scaled": not_scaled, "moved": lambda R, t, p, d: d * (p @ R.T + t)}),
-    ("T-forgotten", "the points are in the camera frame. Transform them to the world "
-     "frame", "the result without T", {"moved": lambda R, t, p, d: p}),
-    ("half-inverted", "R is transposed and t is subtracted, but the result is neither "
-     "T p nor T^-1 p, which is R^T (p - t)", "R^T p - t",
+    ("T-forgotten", "your points are in the camera frame. Transform them to the world "
+                    "frame", {"moved": lambda R, t, p, d: p}),
+    ("half-inverted", "your code transposes R and subtracts t. This result is neither "
+                      "T p nor T^-1 p, which is R^T (p - t)",
      {"moved": lambda R, t, p, d: p @ R - t}),
-    ("t-before-R", "the translation is added before the rotation; T p is R p + t",
-     "R (p + t)", {"moved": lambda R, t, p, d: (p + t) @ R.T}),
+    ("t-before-R", "your code adds the translation before the rotation, but T p is R p "
+                   "+ t", {"moved": lambda R, t, p, d: (p + t) @ R.T}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(placed, **other))
+    row.wrong(slug, says)(partial(placed, **other))
 
 
 @row.wrong("depth-along-columns", hidden="the lab never has three points")
 def _(K, T_world_cam, pixels, depth):
-    """the depth multiplies the columns, but each point is a row: use depth[:, None] =>
-    rays * depth"""
+    """your code multiplies the columns by the depths, but each point is a row. Use
+    depth[:, None]"""
     by = depth if len(depth) == 3 else depth[:, None]
     return placed(K, T_world_cam, pixels, depth, scaled=lambda ray, _: ray * by)
 

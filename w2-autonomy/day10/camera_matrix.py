@@ -25,22 +25,21 @@ def matrix(fx, fy, cx, cy):
 
 @row.wrongs(hidden={"whole-division": "the lab's images have even sides"})
 def _(fovy, width, height):
-    """width-for-height: f is computed from the width; fovy is the vertical field of
-      view, so use the height => width / 2 in f
-    two-focal-lengths: fx is computed from the width; the pixels are square, so f from
-      the height applies to both axes => width / 2 in fx
-    sine-for-tangent: f uses the sine of half the angle; half the height and f are the
-      two legs of the right triangle => sin(fovy / 2)
-    middle-of-a-pixel: the principal point is ((width - 1) / 2, (height - 1) / 2), as in
-      OpenCV, where (0, 0) is the centre of the first pixel. In this task, (0, 0) is its
-      corner => (width - 1) / 2
-    centre-at-0: the principal point is (0, 0). It should be the centre of the image =>
-      (0, 0) as the principal point
-    centre-whole: the principal point is (width, height). It should be the centre of the
-      image, half of both => (width, height) as the principal point
-    y-up: the second focal length is negative; v and y both point down => -f for v
-    whole-division: the operator // rounds half of an odd number of pixels down: the
-      centre of 353 pixels is at 176.5 => // instead of /
+    """width-for-height: your code computes f from the width, but fovy is the vertical
+      field of view, so use the height
+    two-focal-lengths: your code computes fx from the width, but the pixels are square,
+      so f from the height applies to both axes
+    sine-for-tangent: your f uses the sine of half the angle, but half the height and f
+      are the two legs of the right triangle
+    middle-of-a-pixel: your principal point is ((width - 1) / 2, (height - 1) / 2), as
+      in OpenCV, where (0, 0) is the centre of the first pixel. In this task, (0, 0) is
+      its corner
+    centre-at-0: your principal point is (0, 0). It should be the centre of the image
+    centre-whole: your principal point is (width, height). It should be the centre of
+      the image, half of both
+    y-up: your second focal length is negative, but v and y both point down
+    whole-division: your operator // rounds half of an odd number of pixels down. The
+      centre of 353 pixels is at 176.5
     """
     f = height / 2 / np.tan(fovy / 2)
     fw = width / 2 / np.tan(fovy / 2)

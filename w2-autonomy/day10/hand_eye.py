@@ -44,7 +44,7 @@ def _(rng):  # two of the motions rotate by less than 0.2 rad
 
 
 @row.valid(
-    "The result is correct for exact motions. With noise no X fits all of them, and "
+    "Your result is correct for exact motions. With noise, no X fits all motions, and "
     "each method returns another X. Use the rotation nearest to the sum of a b^T of "
     "the rotation vectors, as in kabsch, and then the least-squares t for it."
 )
@@ -107,49 +107,53 @@ def solved(
     return rigid(R, np.linalg.lstsq(C, right, rcond=None)[0])
 
 
-for slug, says, redone, other in (
-    ("mirror", "the determinant is not checked: for axes near one plane U V^T may be a "
-     "reflection", "U V^T",
+for slug, says, other in (
+    ("mirror", "your code does not check the determinant, but for axes near one plane "
+               "U V^T may be a reflection",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
-    ("mirror-turned-round", "the reflection is corrected by negating the whole matrix. "
-     "Negate only the direction of the smallest singular value", "-U V^T",
+    ("mirror-turned-round", "where U V^T is a reflection, your rotation is its "
+                            "negative. Negate only the direction of the smallest "
+                            "singular value",
      {"turn": partial(turns, rotation=all_turned)}),
-    ("R-transposed", "the rotation is transposed: a = R b, so it comes from the sum of "
-     "a b^T", "R^T in both steps",
+    ("R-transposed", "your code transposes the rotation. Because a = R b, the rotation "
+                     "comes from the sum of a b^T",
      {"turn": lambda A, B: turns(A, B).T}),
-    ("centred", "the mean is subtracted from the rotation vectors; a = R b has no "
-     "translation, so use the vectors themselves", "kabsch on the rotation vectors",
+    ("centred", "your code subtracts the mean from the rotation vectors. The model a = "
+                "R b has no translation, so use the vectors themselves",
      {"turn": partial(turns, centred=True)}),
-    ("axes-alone", "the rotation vectors are normalised. Keep their norms, because the "
-     "axes of small rotations are less accurate and should get less weight",
-     "a fit of unit axes", {"turn": partial(turns, unit=True)}),
-    ("positions-for-rotations", "the rotation is fitted to the translations of A and "
-     "B. Fit it to their rotation vectors", "the rotation between the translations",
+    ("axes-alone", "your code normalises the rotation vectors. Keep their norms, "
+                   "because the axes of small rotations are less accurate and should "
+                   "get less weight", {"turn": partial(turns, unit=True)}),
+    ("positions-for-rotations", "your code fits the rotation to the translations of A "
+                                "and B. Fit it to their rotation vectors",
      {"turn": between_places}),
-    ("R-transposed-in-d", "t_B is rotated by R^T; R itself maps the camera frame to "
-     "the hand frame", "R^T t_B - t_A", {"turned": lambda R, t: t @ R}),
-    ("first-motion-only", "only the first motion is used for t; one motion leaves t "
-     "free along its axis, so stack all of them", "the first motion alone",
+    ("R-transposed-in-d", "your code rotates t_B by R^T, but R itself maps the camera "
+                          "frame to the hand frame", {"turned": lambda R, t: t @ R}),
+    ("first-motion-only", "your code solves for t from the first motion only. One "
+                          "motion does not determine t along its own axis, so stack "
+                          "the equations of all motions",
      {"some": slice(1)}),
-    ("last-motion-only", "only the last motion is used for t; one motion leaves t free "
-     "along its axis, so stack all of them", "the last motion alone",
+    ("last-motion-only", "your code solves for t from the last motion only. One motion "
+                         "does not determine t along its own axis, so stack the "
+                         "equations of all motions",
      {"some": slice(-1, None)}),
 ):  # fmt: skip
     why = "only the axes about joint 7 are in one plane in the lab"
     hidden = why if slug.startswith("mirror") else ""
-    row.wrong(slug, says, redone, hidden)(partial(solved, **other))
+    row.wrong(slug, says, hidden=hidden)(partial(solved, **other))
 
 
 @row.wrongs
 def _(A, B):
-    """t-of-the-mean: t is the mean of one solution for each motion; one motion leaves t
-      free along its axis, so stack all equations => the mean of pinv(R_A - 1) d
-    centred-the-other-way: the means are subtracted and the rotation is transposed, as
-      kabsch(a, b) gives it; a = R b has no translation => kabsch(a, b)
-    t-as-if-alike: t is the mean of t_A - R t_B, as if the hand did not rotate. This
-      difference is -(R_A - I) t => the mean of t_A - R t_B
-    t-as-if-alike 2: t is the mean of R t_B - t_A, as if the hand did not rotate. This
-      difference is (R_A - I) t => the mean of R t_B - t_A
+    """t-of-the-mean: your code solves for t separately for each motion and returns the
+      mean. One motion does not determine t along its own axis, so stack the equations
+      of all motions
+    centred-the-other-way: your code subtracts the means and transposes the rotation, as
+      kabsch(a, b) gives it. The model a = R b has no translation
+    t-as-if-alike: your t is the mean of t_A - R t_B, as if the hand did not rotate.
+      This difference is -(R_A - I) t
+    t-as-if-alike 2: your t is the mean of R t_B - t_A, as if the hand did not rotate.
+      This difference is (R_A - I) t
     """
     R = hand_eye(A, B)[:3, :3]
     alone = [

@@ -39,25 +39,27 @@ def once_each(away):
 
 @row.wrongs
 def _(T, source, target):
-    """step-alone: the result is the motion from the transformed source. Return the
-      whole motion, from the source itself => kabsch of the transformed points
-    step-on-the-right: the step multiplies T on the right; it is applied after T, so it
-      belongs on the left => T times the step
-    step-twice: T is applied twice; the motion is fitted to the source itself, so it
-      contains T already => the result times T
-    step-twice 2: T is applied twice; the motion is fitted to the source itself, so it
-      contains T already => T times the result
-    by-sizes-added: the nearest point is chosen by the sum of the absolute differences.
-      Use the Euclidean distance => the sum of |x - y|
-    nearer-half: only the nearer half of the pairs is fitted. Fit all of them
-    each-once: each target point is used at most once; several source points may have
-      the same nearest one => a pairing without repetition
-    in-the-plane: only x and y are compared for the nearest point. Use all three
+    """step-alone: your result is the motion from the transformed source. Return the
+      whole motion, from the source itself
+    step-on-the-right: your step multiplies T on the right. It is applied after T, so it
+      belongs on the left
+    step-twice: your code applies T twice. The motion is fitted to the source itself, so
+      it already contains T
+    step-twice 2: your code applies T twice. The motion is fitted to the source itself,
+      so it already contains T
+    by-sizes-added: your code chooses the nearest point by the sum of the absolute
+      differences. Use the Euclidean distance
+    nearer-half: your code fits only the half of the pairs with the smaller distances.
+      Fit all pairs
+    each-once: your code uses each target point at most once, but several source points
+      may have the same nearest target point
+    in-the-plane: your code compares only x and y for the nearest point. Use all three
       coordinates
-    pairs-of-the-target: each target point is paired with the nearest source point. Pair
-      each source point with the nearest target point
-    first-to-first: the points are paired by their order. Pair each with the nearest
-    T-unchanged: the output is T itself. Fit the motion from the source to the pairs
+    pairs-of-the-target: your code pairs each target point with the nearest source
+      point. Pair each source point with the nearest target point
+    first-to-first: your code pairs the points by their order. Pair each source point
+      with the nearest target point
+    T-unchanged: your output is T itself. Fit the motion from the source to the pairs
     """
     now = source @ T[:3, :3].T + T[:3, 3]
     best = nearest(now, target)

@@ -63,54 +63,55 @@ def all_turned(U, Vt):
     return U @ Vt * np.sign(np.linalg.det(U @ Vt))
 
 
-for slug, says, redone, other in (
-    ("mirror", "the determinant is not checked: with noise or for mirrored points "
-     "U V^T may be a reflection", "U V^T", {"rotation": lambda U, Vt: U @ Vt}),
-    ("mirror-turned-round", "the reflection is corrected by negating the whole matrix. "
-     "Negate only the direction of the smallest singular value", "-U V^T",
+for slug, says, other in (
+    ("mirror", "your code does not check the determinant, but with noise or for "
+               "mirrored points U V^T may be a reflection",
+               {"rotation": lambda U, Vt: U @ Vt}),
+    ("mirror-turned-round", "where U V^T is a reflection, your rotation is its "
+                            "negative. Negate only the direction of the smallest "
+                            "singular value",
      {"rotation": all_turned}),
-    ("largest-turned-round", "the reflection is corrected by negating the direction of "
-     "the largest singular value; negating the direction of the smallest one changes "
-     "the fit least",
-     "diag(det, 1, 1)", {"rotation": lambda U, Vt: U @ np.diag(
+    ("largest-turned-round", "your code corrects a reflection by negating the "
+                             "direction of the largest singular value. Negate the "
+                             "direction of the smallest one, which changes the fit "
+                             "least", {"rotation": lambda U, Vt: U @ np.diag(
          [np.linalg.det(U @ Vt), 1, 1]) @ Vt}),
-    ("column-turned-round", "the reflection is corrected by negating the third column "
-     "of V^T; the directions are the rows of V^T", "the negated column of V^T",
+    ("column-turned-round", "your code corrects a reflection by negating the third "
+                            "column of V^T, but the directions are the rows of V^T",
      {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
-    ("always-turned-round", "the third direction is always negated. Negate it only if "
-     "U V^T is a reflection", "diag(1, 1, -1)",
+    ("always-turned-round", "your code always negates the third direction. Negate it "
+                            "only if U V^T is a reflection",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
-    ("R-transposed", "the rotation is transposed: it maps the source to the target, so "
-     "it is U V^T of target^T source", "R^T",
+    ("R-transposed", "your code transposes the rotation. It should map the source to "
+                     "the target, so it is U V^T of target^T source",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
-    ("worst-fit", "R is the rotation with the largest sum of squares, not the "
-     "smallest: a sign is wrong, or the eigenvector belongs to the smallest eigenvalue",
-     "the rotation that fits worst", {"rotation": lambda U, Vt: proper(-U, Vt)}),
-    ("not-centred", "the centroids are not subtracted before the SVD",
-     "the SVD of the points themselves", {"centre": lambda X: np.zeros(3)}),
-    ("one-number-for-the-centre", "the centroid is the mean of all coordinates "
-     "together. Use axis=0 for one mean per coordinate", ".mean() without an axis",
+    ("worst-fit", "your R is the rotation with the largest sum of squares, not the "
+                  "smallest. Either a sign is wrong, or the eigenvector belongs to the "
+                  "smallest eigenvalue", {"rotation": lambda U, Vt: proper(-U, Vt)}),
+    ("not-centred", "your code does not subtract the centroids before the SVD",
+     {"centre": lambda X: np.zeros(3)}),
+    ("one-number-for-the-centre", "your centroid is the mean of all coordinates "
+                                  "together. Use axis=0 for one mean per coordinate",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
-    ("about-the-first", "the first points are subtracted instead of the centroids; "
-     "their noise changes the rotation", "the SVD about source[0] and target[0]",
+    ("about-the-first", "your code subtracts the first points instead of the "
+                        "centroids, but their noise changes the rotation",
      {"centre": lambda X: X[0]}),
     ("scaled", "your R contains a scale factor. A rigid motion preserves distances, so "
      "R should be a pure rotation",
-     "a scaled R", {"scale": lambda s, source: s.sum() / np.sum(source * source)}),
-    ("t-turned-too", "the translation is R (b - a). Rotate only a: b - R a",
-     "R (b - a)", {"shift": lambda R, a, b: R @ (b - a)}),
+     {"scale": lambda s, source: s.sum() / np.sum(source * source)}),
+    ("t-turned-too", "your translation is R (b - a). Rotate only a: b - R a",
+     {"shift": lambda R, a, b: R @ (b - a)}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(fitted, **other))
+    row.wrong(slug, says)(partial(fitted, **other))
 
 
 @row.wrongs
 def _(source, target):
-    """t-of-the-first: the translation fits the first pair only. Use the centroids =>
-      b_0 - R a_0
-    first-for-centre: the first points are used instead of the centroids; their noise
-      changes the fit => the fit about source[0] and target[0]
+    """t-of-the-first: your translation fits the first pair only. Use the centroids
+    first-for-centre: your code uses the first points instead of the centroids, but
+      their noise changes the fit
     affine: your function fits an affine map by least squares, which need not be a
-      rotation => the affine fit
+      rotation
     """
     R = kabsch(source, target)[:3, :3]
     one = np.hstack([source, np.ones((len(source), 1))])

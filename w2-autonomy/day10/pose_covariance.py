@@ -29,42 +29,44 @@ def covariance(
     return told(share(len(J)) * sigma**2 * np.linalg.inv(J.T @ J))
 
 
-for slug, says, redone, other in (
-    ("mean-over-points", "the result is multiplied by the number of pixel coordinates, "
-     "or J^T J is divided by it. Each further pixel should reduce the covariance",
-     "the covariance times 2 n", {"share": lambda n: n}),
-    ("mean-over-points", "the result is multiplied by the number of points, or J^T J "
-     "is divided by it. Each further point should reduce the covariance",
-     "the covariance times n", {"share": lambda n: n / 2}),
-    ("divided-by-points", "the result is divided by the number of points; J^T J is "
-     "already the sum over all points", "the covariance over n",
+for slug, says, other in (
+    ("mean-over-points", "your code multiplies the result by the number of pixel "
+                         "coordinates, or it divides J^T J by this number. Each "
+                         "further pixel should reduce the covariance",
+                         {"share": lambda n: n}),
+    ("mean-over-points", "your code multiplies the result by the number of points, or "
+                         "it divides J^T J by this number. Each further point should "
+                         "reduce the covariance", {"share": lambda n: n / 2}),
+    ("divided-by-points", "your code divides the result by the number of points, but "
+                          "J^T J is already the sum over all points",
      {"share": lambda n: 2 / n}),
-    ("divided-by-points", "the result is divided by the number of pixel coordinates; "
-     "J^T J is already the sum over all of them", "the covariance over 2 n",
+    ("divided-by-points", "your code divides the result by the number of pixel "
+                          "coordinates, but J^T J is already the sum over all of them",
      {"share": lambda n: 1 / n}),
-    ("reshaped-across", "J is reshaped to (6, 2 n), which mixes its rows; it has one "
-     "row per pixel coordinate, (2 n, 6)", "J.reshape(6, -1)",
+    ("reshaped-across", "your code reshapes J to (6, 2 n), which mixes its rows. J has "
+                        "one row per pixel coordinate, so its shape is (2 n, 6)",
      {"rows": lambda J: J.reshape(6, -1).T}),
-    ("u-alone", "only the rows of u are used; the rows of v contain information as "
-     "well", "J[:, 0]", {"rows": lambda J: J[:, 0]}),
-    ("v-alone", "only the rows of v are used; the rows of u contain information as "
-     "well", "J[:, 1]", {"rows": lambda J: J[:, 1]}),
-    ("sigma-for-variance", "the square root of each entry is taken; a covariance "
-     "contains variances, for example in rad^2", "the square root",
+    ("u-alone", "your code uses only the rows of u, but the rows of v contain "
+                "information as well", {"rows": lambda J: J[:, 0]}),
+    ("v-alone", "your code uses only the rows of v, but the rows of u contain "
+                "information as well", {"rows": lambda J: J[:, 1]}),
+    ("sigma-for-variance", "your code takes the square root of each entry, but a "
+                           "covariance contains variances, for example in rad^2",
      {"told": lambda C: np.sqrt(np.abs(C))}),
-    ("sigma-for-variance", "the square root of each entry is taken; a covariance "
-     "contains variances, for example in rad^2", "np.sqrt", {"told": np.sqrt}),
+    ("sigma-for-variance", "your code takes the square root of each entry, but a "
+                           "covariance contains variances, for example in rad^2",
+                           {"told": np.sqrt}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(covariance, **other))
+    row.wrong(slug, says)(partial(covariance, **other))
 
 
 @row.wrongs
 def _(J, sigma):
-    """information: the result is the information matrix J^T J / sigma^2; the covariance
-      is its inverse
-    by-what-is-left: the result is divided by 2 n - 6 degrees of freedom; this division
-      belongs to the estimate of an unknown sigma
-    each-point-alone: the covariances of the single points are added. Add their
+    """information: your result is the information matrix J^T J / sigma^2, but the
+      covariance is its inverse
+    by-what-is-left: your code divides the result by 2 n - 6 degrees of freedom, but
+      this division belongs to the estimate of an unknown sigma
+    each-point-alone: your code adds the covariances of the single points. Add their
       information matrices J^T J
     """
     rows = rows_of(J)

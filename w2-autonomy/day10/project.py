@@ -54,66 +54,69 @@ def swapped(K):
     return here
 
 
-for slug, says, redone, other in (
-    ("half-inverted", "R is transposed and t is subtracted, but the result is neither "
-     "T p nor T^-1 p, which is R^T (p - t)", "R^T p - t",
+for slug, says, other in (
+    ("half-inverted", "your code transposes R and subtracts t. This result is neither "
+                      "T p nor T^-1 p, which is R^T (p - t)",
      {"moved": lambda R, t, x: x @ R - t}),
-    ("T-forgotten", "T_cam_world is not used; the points are in the world frame, so "
-     "transform them to the camera frame", "the projection without T",
+    ("T-forgotten", "your code does not use T_cam_world. The points are in the world "
+                    "frame, so transform them to the camera frame",
      {"moved": lambda R, t, x: x}),
-    ("t-before-R", "the translation is added before the rotation; T p is R p + t",
-     "R (p + t)", {"moved": lambda R, t, x: (x + t) @ R.T}),
-    ("centre-before-dividing", "the principal point is added before the division by "
-     "the depth. Add it after", "(f x + cx) / z",
+    ("t-before-R", "your code adds the translation before the rotation, but T p is R p "
+                   "+ t", {"moved": lambda R, t, x: (x + t) @ R.T}),
+    ("centre-before-dividing", "your code adds the principal point before the division "
+                               "by the depth. Add it after the division",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2], p[:, 2]])}),
-    ("centre-forgotten", "the principal point is missing. Pixel (0, 0) is the corner "
-     "of the image, but a point straight ahead projects to the centre", "cx = cy = 0",
+    ("centre-forgotten", "your code omits the principal point. Pixel (0, 0) is the "
+                         "corner of the image, but a point straight ahead projects to "
+                         "the centre",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
-    ("centre-taken-off", "the principal point is subtracted. Add it",
-     "(-cx, -cy) as the principal point",
+    ("centre-taken-off", "your code subtracts the principal point. Add it",
      {"times": lambda K, p: upright(K, p, centre=-1.0)}),
-    ("centre-swapped", "cx and cy are swapped: cx belongs to u", "(cy, cx)",
+    ("centre-swapped", "your code swaps cx and cy. The coordinate cx belongs to u",
      {"times": lambda K, p: p @ swapped(K).T}),
-    ("f-forgotten", "the focal length is missing: x / z has no unit, and f converts it "
-     "to pixels", "f = 1", {"times": lambda K, p: upright(K, p, f=0.0)}),
-    ("y-up", "y is negated; both y and v point down", "(x, -y, z)",
+    ("f-forgotten", "your code omits the focal length. The quotient x / z has no unit, "
+                    "and f converts it to pixels",
+                    {"times": lambda K, p: upright(K, p, f=0.0)}),
+    ("y-up", "your code negates y, but both y and v point down",
      {"times": lambda K, p: p * [1, -1, 1] @ K.T}),
-    ("view-along-minus-z", "the point is divided by -z; the camera frame of this task "
-     "has +z forward, unlike MuJoCo's", "(x, y, -z)",
+    ("view-along-minus-z", "your code divides the point by -z, but the camera frame of "
+                           "this task has +z forward, unlike MuJoCo's",
      {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
-    ("mujoco-axes", "y and z are negated, as for MuJoCo's camera frame. T_cam_world "
-     "already maps to a frame with y down and z forward", "(x, -y, -z)",
+    ("mujoco-axes", "your code negates y and z, as for MuJoCo's camera frame. "
+                    "T_cam_world already maps to a frame with y down and z forward",
      {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
-    ("divided-by-range", "the point is divided by its distance from the camera. Divide "
-     "it by its depth z", "the norm of p instead of z",
+    ("divided-by-range", "your code divides the point by its distance from the camera. "
+                         "Divide it by its depth z",
      {"divided": lambda h, p: h[:, :2] / length(p)}),
-    ("divided-by-range", "the point is divided by its distance from the camera. Divide "
-     "it by its depth z", "the norm of p instead of z",
+    ("divided-by-range", "your code divides the point by its distance from the camera. "
+                         "Divide it by its depth z",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2] * length(p), length(p)])}),
-    ("first-depth-for-all", "all points are divided by the depth of the first one; "
-     "each point has its own depth", "the depth of the first point",
+    ("first-depth-for-all", "your code divides all points by the depth of the first "
+                            "one, but each point has its own depth",
      {"divided": lambda h, p: h[:, :2] / h[0, 2]}),
-    ("divided-by-pixel-length", "the homogeneous pixel is divided by its norm. Divide "
-     "it by its last entry, the depth", "the norm of K T p",
+    ("divided-by-pixel-length", "your code divides the homogeneous pixel by its norm. "
+                                "Divide it by its last entry, the depth",
      {"divided": lambda h, p: h[:, :2] / length(h)}),
-    ("homogeneous-by-mistake", "the homogeneous pixel is divided by the depth twice; "
-     "its last entry is the depth, so one division is enough", "z^2 instead of z",
+    ("homogeneous-by-mistake", "your code divides the homogeneous pixel by the depth "
+                               "twice, but its last entry is the depth, so one "
+                               "division is enough",
      {"divided": lambda h, p: h[:, :2] / h[:, 2:] ** 2}),
-    ("middle-of-a-pixel", "half a pixel is subtracted; (0, 0) is the corner of the "
-     "image, not the centre of the first pixel as in OpenCV", "pixels - 0.5",
+    ("middle-of-a-pixel", "your code subtracts half a pixel, but (0, 0) is the corner "
+                          "of the image, not the centre of the first pixel as in "
+                          "OpenCV",
      {"told": lambda pixels: pixels - 0.5}),
-    ("half-a-pixel-added", "half a pixel is added; (0, 0) is the corner of the image, "
-     "and the principal point is measured from there", "pixels + 0.5",
+    ("half-a-pixel-added", "your code adds half a pixel, but (0, 0) is the corner of "
+                           "the image, and the principal point is measured from there",
      {"told": lambda pixels: pixels + 0.5}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(seen, **other))
+    row.wrong(slug, says)(partial(seen, **other))
 
 
 @row.wrong
 def K_before_T(K, T_cam_world, points):
-    """K is applied before T; T maps points in metres, not pixels => T (K p)"""
+    """your code applies K before T, but T maps points in metres, not pixels"""
     p = points @ K.T @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]
     return p[:, :2] / p[:, 2:]
 

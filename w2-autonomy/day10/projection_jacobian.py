@@ -90,67 +90,62 @@ def with_one_name(of, other):
     return wrong
 
 
-for slug, says, redone, other in (
-    ("depth-column-forgotten", "the derivatives with respect to z are 0. A point that "
-     "comes nearer moves away from the principal point, so they should be -f x / z^2",
-     "0 instead of -f x / z^2", {"pixel": third(lambda z: 0.0)}),
-    ("depth-column-sign", "the derivatives with respect to z have the wrong sign: the "
-     "derivative of "
-     "x / z is -x / z^2", "f x / z^2", {"pixel": third(lambda z: -1.0)}),
-    ("power-of-z", "the derivatives with respect to z have the wrong power of z: the "
-     "derivative of "
-     "x / z is -x / z^2", "-f x / z", {"pixel": third(lambda z: z)}),
-    ("power-of-z", "the derivatives with respect to z have the wrong power of z: the "
-     "derivative of "
-     "x / z is -x / z^2", "-f x", {"pixel": third(lambda z: z * z)}),
-    ("power-of-z", "the derivatives with respect to z have the wrong power of z: the "
-     "derivative of "
-     "x / z is -x / z^2", "-f x / z^3", {"pixel": third(lambda z: 1 / z)}),
-    ("f-forgotten", "the focal lengths are missing: your entries are the derivatives "
-     "of x / z, which has no unit", "f = 1",
+for slug, says, other in (
+    ("depth-column-forgotten", "your derivatives with respect to z are 0. A point that "
+                               "comes nearer moves away from the principal point, so "
+                               "they should be -f x / z^2",
+                               {"pixel": third(lambda z: 0.0)}),
+    ("depth-column-sign", "your derivatives with respect to z have the wrong sign. The "
+                          "derivative of x / z is -x / z^2",
+                          {"pixel": third(lambda z: -1.0)}),
+    ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
+                   "derivative of x / z is -x / z^2", {"pixel": third(lambda z: z)}),
+    ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
+                   "derivative of x / z is -x / z^2",
+                   {"pixel": third(lambda z: z * z)}),
+    ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
+                   "derivative of x / z is -x / z^2",
+                   {"pixel": third(lambda z: 1 / z)}),
+    ("f-forgotten", "your code omits the focal lengths, so your entries are the "
+                    "derivatives of x / z, which has no unit",
      {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
-    ("centre-in-the-slope", "the principal point appears in the derivatives with "
-     "respect to z; it is a constant, so its derivative is 0", "the principal point in "
-     "the derivatives",
+    ("centre-in-the-slope", "your derivatives with respect to z contain the principal "
+                            "point, but it is a constant, so its derivative is 0",
      {"pixel": with_the_centre}),
-    ("x-for-y", "the row of v has x in its derivative with respect to z. This entry "
-     "should be -f y / z^2",
-     "x instead of y", {"pixel": with_one_name(1, 0)}),
-    ("y-for-x", "the row of u has y in its derivative with respect to z. This entry "
-     "should be -f x / z^2",
-     "y instead of x", {"pixel": with_one_name(0, 1)}),
-    ("first-columns-not-divided", "the derivatives with respect to x and y are not "
-     "divided by z. They should be f / z", "f instead of f / z",
+    ("x-for-y", "your row of v has x in its derivative with respect to z. This entry "
+                "should be -f y / z^2", {"pixel": with_one_name(1, 0)}),
+    ("y-for-x", "your row of u has y in its derivative with respect to z. This entry "
+                "should be -f x / z^2", {"pixel": with_one_name(0, 1)}),
+    ("first-columns-not-divided", "your code does not divide the derivatives with "
+                                  "respect to x and y by z. They should be f / z",
      {"pixel": lambda K, p: by_point(
          K, p) * np.where([True, True, False], depth(p, 1), 1.0)}),
-    ("pixels-for-x-and-y", "the derivatives with respect to z use the pixel (u, v). "
-     "Use x and y in "
-     "the camera frame", "(u, v) instead of (x, y)", {"pixel": of_the_pixel}),
-    ("range-for-depth", "the derivatives use the distance of the point. Use its depth "
-     "z", "the norm of p instead of z", {"pixel": lambda K, p: by_point(
+    ("pixels-for-x-and-y", "your derivatives with respect to z use the pixel (u, v). "
+                           "Use x and y in the camera frame", {"pixel": of_the_pixel}),
+    ("range-for-depth", "your derivatives use the distance of the point. Use its depth "
+                        "z", {"pixel": lambda K, p: by_point(
          K, np.column_stack([p[:, :2], np.linalg.norm(p, axis=1)]))}),
-    ("halves-swapped", "the columns are in the order (v; omega); omega comes first",
-     "[1, -[p]]", {"told": lambda J: J[..., HALF]}),
-    ("rotation-sign", "the columns of omega have the wrong sign: omega x p is "
-     "-[p] omega", "+[p]", {"twist": lambda p: by_twist(p, 1.0)}),
-    ("camera-moves", "every sign is reversed, as for a camera that moves; the twist is "
-     "of the object", "the negative", {"told": np.negative}),
-    ("y-up", "the row of v has the wrong sign; y and v both point down", "(u, -v)",
+    ("halves-swapped",
+     "your columns are in the order (v; omega), but omega comes first",
+     {"told": lambda J: J[..., HALF]}),
+    ("rotation-sign", "your columns of omega have the wrong sign, because omega x p is "
+                      "-[p] omega", {"twist": lambda p: by_twist(p, 1.0)}),
+    ("camera-moves", "your code reverses every sign, as for a camera that moves, but "
+                     "the twist is of the object", {"told": np.negative}),
+    ("y-up", "your row of v has the wrong sign, but y and v both point down",
      {"told": lambda J: J * [[1], [-1]]}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(jacobian, **other))
+    row.wrong(slug, says)(partial(jacobian, **other))
 
 
 @row.wrongs(hidden=dict.fromkeys(ONE_FOCAL_LENGTH, "the lab's camera has fx = fy"))
 def _(K, p_cam):
-    """fx-in-both-rows: the row of v has fx; its focal length is fy, K[1, 1] => fx in
-      both rows
-    fx-in-both-rows 2: the columns of omega in the row of v have fx; the focal length of
-      this row is fy, K[1, 1] => fx in these columns
-    fy-in-both-rows: the row of u has fy; its focal length is fx, K[0, 0] => fy in both
-      rows
-    coordinates-not-divided: the formula for normalised coordinates is used with x and
-      y in metres; divide both by z first => x and y instead of x / z and y / z
+    """fx-in-both-rows: your row of v uses fx. It should use fy, K[1, 1]
+    fx-in-both-rows 2: your columns of omega in the row of v use fx. They should use fy,
+      K[1, 1]
+    fy-in-both-rows: your row of u uses fy. It should use fx, K[0, 0]
+    coordinates-not-divided: your code uses the formula for normalised coordinates with
+      x and y in metres. Divide both by z first
     """
     J = jacobian(K, p_cam)
     swap = [[1.0], [K[0, 0] / K[1, 1]]]

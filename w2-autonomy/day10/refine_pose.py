@@ -97,37 +97,38 @@ def steps(
     return T
 
 
-for slug, says, redone, other in (
-    ("three-steps", "the result is the pose after three steps. Return the pose after "
-     "ten", "a loop of three steps", {"n": 3}),
-    ("J-of-the-guess", "the Jacobian of the guess is used in every step. Evaluate it "
-     "at the current pose", "the Jacobian of the guess", {"held": True}),
-    ("twist-halves-swapped", "the step is used as (v; omega); the columns of J begin "
-     "with omega", "the step with its halves swapped",
+for slug, says, other in (
+    ("three-steps", "your result is the pose after three steps. Return the pose after "
+                    "ten", {"n": 3}),
+    ("J-of-the-guess", "your code uses the Jacobian of the guess in every step. "
+                       "Evaluate it at the current pose", {"held": True}),
+    ("twist-halves-swapped", "your code uses the step as (v; omega), but the columns "
+                             "of J begin with omega",
      {"move": lambda T, xi: apply_twist(T, np.roll(xi, 3))}),
-    ("body-twist", "each step multiplies T on the right. The twists of J are expressed "
-     "in the camera frame, so the exponential belongs on the left", "T exp([xi])",
+    ("body-twist", "your code multiplies T by each step on the right. The twists of J "
+                   "are expressed in the camera frame, so the exponential belongs on "
+                   "the left",
      {"move": on_the_right}),
-    ("first-order", "each step is T + [xi] T, so R is no longer a rotation. Use the "
-     "exponential", "(1 + [xi]) T", {"move": first_order}),
-    ("gradient", "each step is J^T r, a gradient step; a Gauss-Newton step is the "
-     "least-squares solution", "J^T r", {"solve": downhill}),
-    ("each-from-the-guess", "each step is applied to the guess. Apply it to the pose "
-     "of the previous step",
-     "the guess moved by each step", {"since": lambda T, guess: guess}),
-    ("half-steps", "each step is halved, so ten steps leave a thousandth of the error",
-     "xi / 2", {"factor": 0.5}),
-    ("rows-mixed", "the rows of J are in the order all u, then all v; the errors are "
-     "in another order", "J with its rows reordered", {"solve": mixed}),
-    ("error-mixed", "the errors are in the order all u, then all v; the rows of J are "
-     "in another order", "another order of the errors", {"solve": mixed_off}),
+    ("first-order", "each step in your code is T + [xi] T, so R is no longer a "
+                    "rotation. Use the exponential", {"move": first_order}),
+    ("gradient", "each step in your code is J^T r, a gradient step, but a Gauss-Newton "
+                 "step is the least-squares solution", {"solve": downhill}),
+    ("each-from-the-guess", "your code applies each step to the guess. Apply it to the "
+                            "pose of the previous step",
+                            {"since": lambda T, guess: guess}),
+    ("half-steps", "your code halves each step, so ten steps leave a thousandth of the "
+                   "error. Use the whole step", {"factor": 0.5}),
+    ("rows-mixed", "your rows of J are in the order all u, then all v, but your errors "
+                   "are in another order", {"solve": mixed}),
+    ("error-mixed", "your errors are in the order all u, then all v, but your rows of "
+                    "J are in another order", {"solve": mixed_off}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(steps, **other))
+    row.wrong(slug, says)(partial(steps, **other))
 
 
 @row.wrongs
 def _(K, T_guess, points, pixels):
-    """guess-returned: the output is the guess itself: does your loop change T?"""
+    """guess-returned: your output is the guess itself. Does your loop change T?"""
     return {"guess-returned": T_guess}
 
 

@@ -94,13 +94,12 @@ def one_focal_length(row, right):
         right: what does the same as this function.
     """
     for i, slug, its in (
-        (0, "fx-in-both-rows", "v has fx; its focal length is fy, K[1, 1]"),
-        (1, "fy-in-both-rows", "u has fy; its focal length is fx, K[0, 0]"),
+        (0, "fx-in-both-rows", "v uses fx. It should use fy, K[1, 1]"),
+        (1, "fy-in-both-rows", "u uses fy. It should use fx, K[0, 0]"),
     ):
         row.wrong(
             slug,
-            f"the row of {its}",
-            f"the correct result with K[{i}, {i}] twice",
+            f"your row of {its}",
             hidden="the lab's camera has fx = fy",
         )(partial(_with_one, right, i))
 

@@ -129,80 +129,80 @@ def _(rng):
 
 @row.wrongs(hidden={"nearly-touching": "no two boxes are hardly apart in a run"})
 def _(box_a, box_b):
-    """any-for-all: overlap on one axis is enough in your code; two boxes overlap only
-      if their intervals overlap on all three axes
+    """any-for-all: in your code, overlap on one axis is enough, but two boxes overlap
+      only if their intervals overlap on all three axes
     one-direction: your code makes only one of the two comparisons, so it misses a box_b
-      that lies above box_a => `box_a[0] <= box_b[1]` alone
+      that lies above box_a
     one-direction 2: your code makes only one of the two comparisons, so it misses a
-      box_b that lies below box_a => `box_b[0] <= box_a[1]` alone
-    touching-left-out: boxes that only touch are reported as separate, but they should
-      be reported as overlapping => the formula with <
-    touching-left-out 2: boxes that touch on one side are reported as separate, but they
-      should be reported as overlapping => the formula with one <
-    touching-left-out 3: boxes that touch on one side are reported as separate, but they
-      should be reported as overlapping => the formula with the other <
-    negated: the result is inverted; True means that the boxes overlap
-    first-axis-only: your code compares only x
-    two-axes-only: your code does not compare z
-    contained: your code requires that one box contains the other; two boxes can also
+      box_b that lies below box_a
+    touching-left-out: your code reports boxes that only touch as separate. It should
+      report them as overlapping
+    touching-left-out 2: your code reports boxes that touch on one side as separate. It
+      should report them as overlapping
+    touching-left-out 3: your code reports boxes that touch on one side as separate. It
+      should report them as overlapping
+    negated: your code inverts the result, but True means that the boxes overlap
+    first-axis-only: your code compares only x. Two boxes overlap only if their
+      intervals overlap on all three axes
+    two-axes-only: your code does not compare z. Two boxes overlap only if their
+      intervals overlap on all three axes
+    contained: your code requires that one box contains the other, but two boxes can
+      also overlap partially
+    contained 2: your code requires that box_a contains box_b, but two boxes can also
       overlap partially
-    contained 2: your code requires that box_a contains box_b; two boxes can also
-      overlap partially
-    contained 3: your code requires that box_b contains box_a; two boxes can also
+    contained 3: your code requires that box_b contains box_a, but two boxes can also
       overlap partially
     a-corner-inside: your code requires that the lower or the upper corner of box_b lies
-      in box_a; two boxes can overlap without that
-    a-corner-inside 2: your code requires that the lower corner of box_b lies in box_a;
-      two boxes can overlap without that
-    a-corner-inside 3: your code requires that the upper corner of box_b lies in box_a;
-      two boxes can overlap without that
-    middles-inside: your code requires that the centre of box_a lies in box_b; two boxes
-      can overlap without that
-    middles-inside 2: your code requires that the centre of one box lies in the other;
-      two boxes can overlap without that
-    half-of-one: the limit for the distance between the centres uses only the half
+      in box_a, but two boxes can overlap without that
+    a-corner-inside 2: your code requires that the lower corner of box_b lies in box_a,
+      but two boxes can overlap without that
+    a-corner-inside 3: your code requires that the upper corner of box_b lies in box_a,
+      but two boxes can overlap without that
+    middles-inside: your code requires that the centre of box_a lies in box_b, but two
+      boxes can overlap without that
+    middles-inside 2: your code requires that the centre of one box lies in the other,
+      but two boxes can overlap without that
+    half-of-one: your limit for the distance between the centres uses only the half
       extents of box_a. Add those of box_b
-    corners-only: your code tests whether a corner of one box lies in the other; two
-      boxes can cross although no corner lies inside => the test of all 8 corners of
-      both
+    corners-only: your code tests whether a corner of one box lies in the other, but two
+      boxes can cross although no corner lies inside => both
     corners-only 2: your code tests whether a corner of box_b lies in box_a. Two boxes
-      can cross, or box_b can contain box_a, although no such corner exists => the test
-      of all 8 corners of box_b
+      can cross, or box_b can contain box_a, although no such corner exists
     corners-only 3: your code tests only the lower and the upper corner of each box. Two
-      boxes can overlap although neither lies in the other box => the test of two
-      corners of each
-    corners-only 4: your code tests only the lower corner of each box; two boxes can
+      boxes can overlap although neither lies in the other box
+    corners-only 4: your code tests only the lower corner of each box, but two boxes can
       overlap although neither lies in the other box
     balls: your code treats the boxes as spheres, because it compares the norm of the
-      vector between the centres. Compare each axis separately => the formula with half
-      of the diagonals
+      vector between the centres. Compare each axis separately
     balls 2: your code treats the boxes as spheres, because it compares the norm of the
-      vector between the centres. Compare each axis separately => the formula with half
-      of the smallest sides
+      vector between the centres. Compare each axis separately
     balls 3: your code treats the boxes as spheres, because it compares the norm of the
-      vector between the centres. Compare each axis separately => the formula with half
-      of the largest sides
-    sides-not-halved: the limit for the distance between the centres is the sum of the
+      vector between the centres. Compare each axis separately
+    sides-not-halved: your limit for the distance between the centres is the sum of the
       sides. It should be half of this sum
-    sides-in-quarters: the limit for the distance between the centres is a quarter of
+    sides-in-quarters: your limit for the distance between the centres is a quarter of
       the sum of the sides. It should be half of this sum
-    or-for-and: one of the two comparisons is enough in your code; both must hold
-    two-axes-enough: overlap on two axes is enough in your code; two boxes overlap only
-      if their intervals overlap on all three axes
-    other-axes: your code does not compare y
-    other-axes 2: your code does not compare x
-    other-axes 3: your code compares only y
-    other-axes 4: your code compares only z
-    volume: your code tests the product of the three overlaps; two negative overlaps
-      have a positive product => a product above 0
-    volume 2: your code tests the product of the three overlaps; two negative overlaps
-      have a positive product => a product of 0 or more
-    sum-of-overlaps: your code adds the overlaps of the three axes; each of them must be
-      0 or more
-    nearly-touching: your code reports an overlap for boxes with a small gap => a gap of
-      up to 0.01 m
-    always: your code always returns True
-    never: your code always returns False
+    or-for-and: in your code, one of the two comparisons is enough, but both must hold
+    two-axes-enough: in your code, overlap on two axes is enough, but two boxes overlap
+      only if their intervals overlap on all three axes
+    other-axes: your code does not compare y. Two boxes overlap only if their intervals
+      overlap on all three axes
+    other-axes 2: your code does not compare x. Two boxes overlap only if their
+      intervals overlap on all three axes
+    other-axes 3: your code compares only y. Two boxes overlap only if their intervals
+      overlap on all three axes
+    other-axes 4: your code compares only z. Two boxes overlap only if their intervals
+      overlap on all three axes
+    volume: your code tests the product of the three overlaps, but two negative overlaps
+      have a positive product
+    volume 2: your code tests the product of the three overlaps, but two negative
+      overlaps have a positive product
+    sum-of-overlaps: your code adds the overlaps of the three axes, but each of them
+      must be 0 or more
+    nearly-touching: your code reports an overlap for boxes with a small gap, but such
+      boxes are apart
+    always: your code always returns True. Compare the intervals on all three axes
+    never: your code always returns False. Compare the intervals on all three axes
     """
     low, high = box_a[0] <= box_b[1], box_b[0] <= box_a[1]
     both = low & high

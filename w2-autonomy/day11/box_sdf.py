@@ -69,88 +69,86 @@ def _(p, half_extents):
     """zero-inside: inside the box your code returns 0. Return minus the distance to the
       nearest face
     inside-positive: inside the box your result is positive. It should be negative
-    sign: the sign is reversed; the distance is positive outside the box
+    sign: your code reverses the sign. The distance should be positive outside the box
     largest-outside: outside the box your code uses only the largest excess beyond a
-      face. Near an edge or a corner, take the norm of all positive excesses => max(|p|
-      - half_extents)
+      face. Near an edge or a corner, take the norm of all positive excesses
     sum-outside: outside the box your code adds the excesses beyond the faces. Take
       their norm, because they are perpendicular
-    inside-added-outside: outside the box negative entries of |p| - half_extents enter
-      the norm. Clamp them to 0 first => the norm of |p| - half_extents
+    inside-added-outside: outside the box the norm in your code includes negative
+      entries of |p| - half_extents. Clamp them to 0 first
     depth-added-outside: outside the box your code adds the largest entry of |p| -
-      half_extents to the norm. Add it only inside, where it is negative => the norm
-      plus max(|p| - half_extents), without min(..., 0)
+      half_extents to the norm. Add it only inside, where it is negative
     inside-by-the-norm: inside the box your code returns minus the norm of all three
-      face distances; only the nearest face matters
+      face distances, but only the nearest face matters
     farthest-face-inside: inside the box your code uses the distance to the farthest
-      face. Use the nearest face, which has the largest entry of |p| - half_extents =>
-      the formula with min
-    farthest-face-inside 2: the inside term uses the farthest face. Use the nearest
-      face, which has the largest entry of |p| - half_extents => the formula with min
+      face. Use the nearest face, which has the largest entry of |p| - half_extents
+    farthest-face-inside 2: your inside term uses the farthest face. Use the nearest
+      face, which has the largest entry of |p| - half_extents
     to-the-middle-inside: inside the box your code returns minus the distance to the
       centre. Use the distance to the nearest face
     to-the-middle: your code returns the distance to the centre, so the size of the box
       is not used
-    box-as-a-ball: your code treats the box as a sphere => |p| minus the norm of
-      half_extents
-    box-as-a-ball 2: your code treats the box as a sphere => |p| minus the largest
-      half_extents
-    box-as-a-ball 3: your code treats the box as a sphere => |p| minus the smallest
-      half_extents
+    box-as-a-ball: your code treats the box as a sphere. Compare each coordinate with
+      its own half extent
+    box-as-a-ball 2: your code treats the box as a sphere. Compare each coordinate with
+      its own half extent
+    box-as-a-ball 3: your code treats the box as a sphere. Compare each coordinate with
+      its own half extent
     whole-sides: half_extents already contains half of each side, but your code halves
-      it again => the formula with half_extents / 2
-    twice-the-sides: your code doubles half_extents; the faces are at plus and minus
-      half_extents => the formula with 2 half_extents
-    abs-forgotten: the absolute value of p is missing, so points with a negative
-      coordinate are wrong. Use |p| - half_extents => the formula with p - half_extents
-    abs-forgotten-zero-inside: the absolute value of p is missing, and inside the box
-      your code returns 0 => the norm of the positive entries of p - half_extents
-    not-rooted: the square root is missing, so outside the box the result is a squared
-      distance
-    nearest-corner: your code returns the distance to the nearest corner; a face or an
-      edge can be nearer
-    largest-half: your code uses the largest half extent on every axis => the formula
-      with half_extents.max()
-    half-backwards: your code uses half_extents in reverse order; its first entry
+      it again
+    twice-the-sides: your code doubles half_extents, but the faces are at plus and minus
+      half_extents
+    abs-forgotten: your code omits the absolute value of p, so points with a negative
+      coordinate are wrong. Use |p| - half_extents
+    abs-forgotten-zero-inside: your code omits the absolute value of p, and it returns 0
+      inside the box
+    not-rooted: your code omits the square root, so outside the box the result is a
+      squared distance
+    nearest-corner: your code returns the distance to the nearest corner, but a face or
+      an edge can be nearer
+    largest-half: your code uses the largest half extent on every axis. Each axis has
+      its own half extent
+    half-backwards: your code uses half_extents in reverse order, but its first entry
       belongs to x
-    in-the-plane: your code does not use z
+    in-the-plane: your code does not use z. Use all three coordinates
     smallest-added: your code adds the smallest entry of |p| - half_extents, even where
-      it is positive. Add the largest entry, and only where it is negative => the norm
-      plus min(|p| - half_extents)
-    first-axis-added: the inside term uses only the x entry of |p| - half_extents. Use
+      it is positive. Add the largest entry, and only where it is negative
+    first-axis-added: your inside term uses only the x entry of |p| - half_extents. Use
       the largest of the three entries
-    largest-with-max: max(..., 0) is used instead of min(..., 0), so the largest entry
-      is added outside the box and the result inside is 0
-    sum-inside: inside the box your code adds the three face distances; only the nearest
-      face matters
-    mean-inside: inside the box your code returns the mean of the three face distances;
-      only the nearest face matters
+    largest-with-max: your code uses max(..., 0) instead of min(..., 0), so it adds the
+      largest entry outside the box, and the result inside is 0
+    sum-inside: inside the box your code adds the three face distances, but only the
+      nearest face matters
+    mean-inside: inside the box your code returns the mean of the three face distances,
+      but only the nearest face matters
     one-number-inside: inside the box your code always returns -1. Return minus the
       distance to the nearest face
     least-half-inside: inside the box your code always returns minus the smallest half
       extent, which is correct only at the centre
     smallest-part-inside: inside the box your code returns minus the smallest entry of
-      |p|; the distance to a face is half_extents - |p|
+      |p|, but the distance to a face is half_extents - |p|
     upper-faces-inside: inside the box your code uses only the faces on the positive
-      side; the opposite face can be nearer => minus the minimum of half_extents - p
-    lengthwise: your code measures along the line to the centre; the shortest distance
-      to a face is perpendicular to it => |p| (1 - 1 / max(|p| / half_extents))
-    size-of-the-difference: your code uses |p - half_extents|; the excess beyond a face
-      is |p| - half_extents
-    cut-at-one: the excess beyond a face is limited to 1; the excess has no upper limit
+      side, but the opposite face can be nearer
+    lengthwise: your code measures along the line to the centre, but the shortest
+      distance to a face is perpendicular to it
+    size-of-the-difference: your code uses |p - half_extents|, but the excess beyond a
+      face is |p| - half_extents
+    cut-at-one: your code limits the excess beyond a face to 1, but the excess has no
+      upper limit
     corner-or-face: near an edge your code returns the larger of the two excesses.
       Return their norm
     two-of-three: near a corner your code uses only the two largest excesses. Use all
       three
     first-two-only: if the point lies beyond a z face, your code returns only the
-      largest excess; x and y belong in the norm too
+      largest excess, but x and y belong in the norm too
     mean-square: your code takes the root of the mean of the squares. Take the root of
       their sum
     smallest-taken-off: your code subtracts the smallest absolute value of |p| -
-      half_extents, even outside the box
-    edges-negative: near an edge or a corner the sign is reversed
-    cut-at-both: your code returns the norm of the point clamped to the box; the
-      distance needs p minus this point => the norm of the nearest point
+      half_extents, even outside the box. Subtract it only inside
+    edges-negative: near an edge or a corner your result has the wrong sign. The
+      distance should be positive outside the box
+    cut-at-both: your code returns the norm of the point clamped to the box. The
+      distance outside the box is the norm of p minus this point
     """
     beyond = np.abs(p) - half_extents
     out = np.maximum(beyond, 0.0)

@@ -44,52 +44,49 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, r):
-    """radius-forgotten: the radius is missing, so the box contains only the axis
-    radius-on-one-side: the radius is not subtracted from the lower corner
-    radius-on-one-side 2: the radius is not added to the upper corner
-    radius-inwards: the radius has the wrong sign, so the box shrinks. Subtract it from
+    """radius-forgotten: your code omits the radius, so the box contains only the axis
+    radius-on-one-side: your code does not subtract the radius from the lower corner
+    radius-on-one-side 2: your code does not add the radius to the upper corner
+    radius-inwards: your radius has the wrong sign, so the box shrinks. Subtract it from
       the lower corner and add it to the upper corner
-    radius-added-to-both: the radius is added to both corners. Subtract it from the
-      lower corner
+    radius-added-to-both: your code adds the radius to both corners. Subtract it from
+      the lower corner
     flat-ends: your box is the box of a cylinder with flat ends. A capsule ends in
-      spheres, which extend by r along every axis => the formula with r sqrt(1 - d^2) on
-      each axis, where d is the direction of the axis
-    corners-not-sorted: a0 and a1 are used as the lower and the upper corner. Take the
-      minimum and the maximum of each coordinate => a0 - r, a1 + r
-    corners-of-all: one minimum and one maximum are taken over x, y and z together. Take
-      them for each coordinate separately
-    swapped: the upper corner comes first. Return the lower corner first
+      spheres, which extend by r along every axis
+    corners-not-sorted: your code uses a0 and a1 as the lower and the upper corner. Take
+      the minimum and the maximum of each coordinate
+    corners-of-all: your code takes one minimum and one maximum over x, y and z
+      together. Take them for each coordinate separately
+    swapped: your upper corner comes first. Return the lower corner first
     centre-and-half: your code returns the centre and the half extents. Return the lower
       and the upper corner
     corner-and-size: your code returns the lower corner and the full sides. Return the
       lower and the upper corner
-    half-not-halved: the centre is correct, but |a1 - a0| is not halved => |a1 - a0| + r
-      on either side of the centre
-    longest-side: your box is a cube with the longest side; each axis has its own extent
-    longest-side 2: the length of the axis is used as the extent in x, y and z; each
-      coordinate has its own extent => half of the length plus r on either side of the
-      centre
+    half-not-halved: your centre is correct, but your code does not halve |a1 - a0|
+    longest-side: your box is a cube with the longest side, but each axis has its own
+      extent
+    longest-side 2: your code uses the length of the axis as the extent in x, y and z,
+      but each coordinate has its own extent
     around-one-end: your code uses only a0, so the result is the box of a sphere around
       it
     around-one-end 2: your code uses only a1, so the result is the box of a sphere
       around it
-    along-the-axis: the radius is added only along the direction of the axis. The sphere
-      at each end extends by r along x, y and z => the formula with r times the
-      direction of the axis
-    whole-ends-sorted: one whole end is used as the lower corner. Take the minimum of
-      each coordinate separately => the end with the smaller x
-    whole-ends-sorted 2: one whole end is used as the lower corner. Take the minimum of
-      each coordinate separately => the end nearer to the origin
-    whole-ends-sorted 3: one whole end is used as the lower corner. Take the minimum of
-      each coordinate separately => the end with the smaller sum
+    along-the-axis: your code adds the radius only along the direction of the axis. The
+      sphere at each end extends by r along x, y and z
+    whole-ends-sorted: your code uses one whole end as the lower corner. Take the
+      minimum of each coordinate separately
+    whole-ends-sorted 2: your code uses one whole end as the lower corner. Take the
+      minimum of each coordinate separately
+    whole-ends-sorted 3: your code uses one whole end as the lower corner. Take the
+      minimum of each coordinate separately
     cube-in-the-ball: your code adds r / sqrt(3), which gives the cube inside the
-      sphere; the box must contain the sphere
-    radius-times: the corners are multiplied by 1 - r and 1 + r. Subtract and add r
-      instead
+      sphere, but the box must contain the sphere
+    radius-times: your code multiplies the corners by 1 - r and 1 + r. Subtract and add
+      r instead
     with-the-origin: your box always contains the origin. Start the minimum and the
       maximum from a0, not from 0
-    size-of-places: your code takes the minimum and the maximum of absolute values; the
-      sign of a coordinate matters => the formula with |a0| and |a1|
+    size-of-places: your code takes the minimum and the maximum of absolute values, but
+      the sign of a coordinate matters
     as-a-ball: your result is the box of a sphere around the whole capsule. The box
       should be as small as possible
     """

@@ -127,105 +127,105 @@ def golden(f, n, keep=0.618, wrong=False):
 
 @row.wrongs
 def _(a0, a1, r, T_world_box, half_extents):
-    """ends-only: your code tests only the ends of the axis; the nearest point of the
-      axis can lie between them
+    """ends-only: your code tests only the ends of the axis, but the nearest point can
+      lie between them
     one-end-only: your code always returns the distance of a1, because the search always
       keeps the upper part
     one-end-only 2: your code always returns the distance of a0, because the search
       always keeps the lower part
-    middle-only: your code tests only the midpoint of the axis
-    five-points: your code tests only some points of the axis; the nearest point lies
-      between them => the minimum at 0, 0.25, 0.5, 0.75 and 1
-    five-points 2: your code tests only some points of the axis; the nearest point lies
-      between them => the minimum at 0.25, 0.5 and 0.75
-    three-points: your code tests only the ends and the midpoint of the axis; the
+    middle-only: your code tests only the midpoint of the axis, but the nearest point
+      can be anywhere on it
+    five-points: your code tests only some points of the axis, but the nearest point
+      lies between them
+    five-points 2: your code tests only some points of the axis, but the nearest point
+      lies between them
+    three-points: your code tests only the ends and the midpoint of the axis, but the
       nearest point can lie between them
-    eleven-points: your code tests only some points of the axis; the nearest point lies
-      between them => the minimum of 11 points
-    eleven-points 2: your code tests only some points of the axis; the nearest point
-      lies between them => the minimum of 21 points
+    eleven-points: your code tests only some points of the axis, but the nearest point
+      lies between them
+    eleven-points 2: your code tests only some points of the axis, but the nearest point
+      lies between them
     nearest-to-the-centre: your code uses the point of the axis nearest to the centre of
       the box. Another point can be nearer to a face
-    world-axes: the ends are translated to the box but not rotated into its frame. Use
-      R^T (x - t) => R = I
-    turned-the-other-way: the ends are multiplied by R. Use R^T to express them in the
-      box frame => the formula with R
-    pose-not-inverted: T_world_box is applied directly, but it maps from the box frame
-      to the world frame. Apply its inverse => R x + t
-    place-forgotten: the ends are rotated but not translated. Subtract the position of
-      the box first => R^T x
-    turned-then-moved: the position of the box is subtracted after the rotation.
-      Subtract it first, R^T (x - t) => R^T x - t
-    t-added: the position of the box is added. Subtract it, R^T (x - t) => R^T (x + t)
-    radius-forgotten: the radius is missing, so the result is the distance of the axis
-    radius-added: the radius is added. Subtract it
-    radius-to-the-box: the box is enlarged by the radius, which keeps its corners sharp.
-      Subtract the radius from the distance => the formula with half_extents + r
-    radius-to-the-box 2: the box is enlarged by the radius, which keeps its corners
-      sharp. Subtract the radius from the distance => the formula with half_extents + r
-      at the correct point
-    way-not-turned: the start of the axis is expressed in the box frame, but its
-      direction is not. Multiply a1 - a0 by R^T => the formula with a1 - a0 in the world
-      frame
-    wrong-half-kept: the search keeps the wrong part, so it finds the farthest point of
+    world-axes: your ends are translated to the box but not rotated into its frame. Use
+      R^T (x - t)
+    turned-the-other-way: your code multiplies the ends by R. Use R^T to express them in
+      the box frame
+    pose-not-inverted: your code applies T_world_box directly, but it maps from the box
+      frame to the world frame. Apply its inverse
+    place-forgotten: your code rotates the ends but does not translate them. Subtract
+      the position of the box first
+    turned-then-moved: your code subtracts the position of the box after the rotation.
+      Subtract it first, R^T (x - t)
+    t-added: your code adds the position of the box. Subtract it, R^T (x - t)
+    radius-forgotten: your code omits the radius, so the result is the distance of the
+      axis
+    radius-added: your code adds the radius. Subtract it
+    radius-to-the-box: your code enlarges the box by the radius, which keeps its corners
+      sharp. Subtract the radius from the distance
+    radius-to-the-box 2: your code enlarges the box by the radius, which keeps its
+      corners sharp. Subtract the radius from the distance
+    way-not-turned: your code expresses the start of the axis in the box frame, but not
+      its direction. Multiply a1 - a0 by R^T
+    wrong-half-kept: your search keeps the wrong part, so it finds the farthest point of
       the axis
-    wrong-half-kept 2: the search keeps the wrong part, so it finds the farthest point
-      of the axis => the larger of the two distances at the ends
-    bounding-sphere: your code treats the box as a sphere => the formula with the norm
-      of half_extents
-    ends-left-out: the search never tests the ends of the axis. Start with the whole
-      interval 0..1
-    never-negative: for shapes that overlap your code returns 0; the signed distance is
-      negative => the formula with max(0, d)
-    sign: the sign is reversed; the distance is positive for shapes that do not overlap
-    outside-only: an axis that enters the box gets distance 0. Use the negative value
-      from `box_sdf`, then subtract r
-    as-a-line: the search goes beyond the ends of the axis; its parameter stays in 0..1
-      => the minimum on a much longer segment
-    way-moved: t is also subtracted from the direction of the axis; a direction is only
-      rotated => R^T (a1 - a0 - t)
-    way-moved 2: the direction runs from the centre of the box to a1. It should run from
-      a0 to a1 => R^T (a1 - t)
-    way-of-length-1: the direction of the axis is normalised, but its parameter still
-      runs from 0 to 1
-    not-into-the-box: the ends stay in the world frame. Express them in the box frame
+    wrong-half-kept 2: your search keeps the wrong part, so it finds the farthest point
+      of the axis
+    bounding-sphere: your code treats the box as a sphere. Compare each coordinate with
+      its own half extent
+    ends-left-out: your search never tests the ends of the axis. Start with the whole
+      interval [0, 1]
+    never-negative: for shapes that overlap your code returns 0, but the signed distance
+      is negative
+    sign: your code reverses the sign. The distance should be positive for shapes that
+      do not overlap
+    outside-only: in your code, an axis that enters the box gets distance 0. Use the
+      negative value from `box_sdf`, then subtract r
+    as-a-line: your search goes beyond the ends of the axis, but its parameter should
+      stay in [0, 1]
+    way-moved: your code also subtracts t from the direction of the axis, but a
+      direction should only be rotated
+    way-moved 2: your direction runs from the centre of the box to a1. It should run
+      from a0 to a1
+    way-of-length-1: your code normalises the direction of the axis, but its parameter
+      still runs from 0 to 1
+    not-into-the-box: your ends stay in the world frame. Express them in the box frame
       with R^T (x - t)
-    radius-off-the-box: the box is reduced by the radius. Subtract the radius from the
-      distance
-    size-of-the-depth: the absolute value of the depth is used for an axis inside the
-      box. Keep the sign => |d| - r
-    size-of-the-distance: the absolute value is taken, so shapes that overlap get a
-      positive distance => |d - r|
-    radius-off-the-box 2: the box is reduced by the radius. Subtract the radius from the
-      distance => the formula with half_extents - r at the correct point
-    largest-half: your code uses the largest half extent on every axis => the formula
-      with half_extents.max()
-    largest-half 2: your code uses the largest half extent on every axis => the formula
-      with half_extents.max() at the correct point
-    sides-exchanged: x and y of half_extents are swapped
-    sides-exchanged 2: x and y of half_extents are swapped
-    box-around-it: the rotated box is replaced by its axis-aligned bounding box. Express
-      the ends in the box frame instead => |R| half_extents
-    half-turned: half_extents is rotated; it contains lengths, so rotate the ends of the
-      axis instead => R half_extents
+    radius-off-the-box: your code reduces the box by the radius. Subtract the radius
+      from the distance
+    size-of-the-depth: your code uses the absolute value of the depth for an axis inside
+      the box. Keep the sign
+    size-of-the-distance: your code takes the absolute value, so shapes that overlap get
+      a positive distance
+    radius-off-the-box 2: your code reduces the box by the radius. Subtract the radius
+      from the distance
+    largest-half: your code uses the largest half extent on every axis. Each axis has
+      its own half extent
+    largest-half 2: your code uses the largest half extent on every axis. Each axis has
+      its own half extent
+    sides-exchanged: your code swaps x and y of half_extents
+    sides-exchanged 2: your code swaps x and y of half_extents
+    box-around-it: your code replaces the rotated box by its axis-aligned bounding box.
+      Express the ends in the box frame instead
+    half-turned: your code rotates half_extents, but it contains lengths, so rotate the
+      ends of the axis instead
     mean-along: your code returns the mean of the distances along the axis. Return the
       minimum
     edges-only: your code computes the distance to the edges of the box. A face can be
       nearer, and the axis can enter the box
     faces-only: your code tests only the ends and the points where the axis crosses the
-      plane of a face
+      plane of a face, but the nearest point can be another one
     point-to-box-in-turn: your code alternates between the nearest point of the box and
-      the nearest point of the axis, but stops after too few steps => the result after 5
-      steps from the midpoint
-    one-section: the search makes only one step, which leaves 0.618 of the axis
-    radius-times-the-length: the radius is multiplied by the length of the axis.
+      the nearest point of the axis, but it stops after too few steps
+    one-section: your search makes only one step, which leaves 0.618 of the axis
+    radius-times-the-length: your code multiplies the radius by the length of the axis.
       Subtract r itself
     share-returned: your code returns the parameter s of the nearest point. Return the
       distance there
-    five-sections: the search stops too early; each step keeps 0.618 of the interval =>
-      the result after 5 steps
-    five-sections 2: the search stops too early; each step keeps 0.618 of the interval
-      => the result after 8 steps
+    five-sections: your search stops too early. Each step only reduces the interval to
+      0.618 of its length
+    five-sections 2: your search stops too early. Each step only reduces the interval to
+      0.618 of its length
     """
     R = T_world_box[:3, :3]
     t = T_world_box[:3, 3]

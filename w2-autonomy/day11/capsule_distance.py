@@ -77,98 +77,96 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, ra, b0, b1, rb):
-    """radii-added: the radii are added to the distance between the axes. Subtract them
-      => the formula with + ra + rb
-    radii-forgotten: the radii are missing, so the result is the distance between the
-      axes
-    one-radius: only the radius of the first capsule is subtracted => the formula
-      without rb
-    one-radius 2: only the radius of the second capsule is subtracted => the formula
-      without ra
-    as-diameters: half of each radius is subtracted; ra and rb are radii, not diameters
-    twice-the-radii: twice each radius is subtracted. Subtract each radius once
-    radii-differ: the difference of the radii is subtracted. Subtract their sum => the
-      formula with ra - rb
-    radii-differ 2: the difference of the radii is subtracted. Subtract their sum => the
-      formula with |ra - rb|
-    larger-radius: only the larger radius is subtracted. Subtract both
-    radii-multiplied: the product of the radii is subtracted. Subtract their sum
-    never-negative: for capsules that overlap your code returns 0; the signed distance
-      is negative => the formula with max(0, d)
-    sign-lost: the absolute value is taken, so capsules that overlap get a positive
-      distance => |d|
-    squared: the square root is missing, so the squared distance between the axes is
-      used => the formula with its square
+    """radii-added: your code adds the radii to the distance between the axes. Subtract
+      them
+    radii-forgotten: your code omits the radii, so the result is the distance between
+      the axes
+    one-radius: your code subtracts only the radius of the first capsule. Subtract both
+      radii
+    one-radius 2: your code subtracts only the radius of the second capsule. Subtract
+      both radii
+    as-diameters: your code subtracts half of each radius, but ra and rb are radii, not
+      diameters
+    twice-the-radii: your code subtracts twice each radius. Subtract each radius once
+    radii-differ: your code subtracts the difference of the radii. Subtract their sum
+    radii-differ 2: your code subtracts the difference of the radii. Subtract their sum
+    larger-radius: your code subtracts only the larger radius. Subtract both
+    radii-multiplied: your code subtracts the product of the radii. Subtract their sum
+    never-negative: for capsules that overlap your code returns 0, but the signed
+      distance is negative
+    sign-lost: your code takes the absolute value, so capsules that overlap get a
+      positive distance
+    squared: your code omits the square root, so it uses the squared distance between
+      the axes
     squared 2: your code subtracts squares. Subtract the radii from the distance itself
-      => |p - o|^2 - (ra + rb)^2
-    sign: the sign is reversed; the distance is positive for capsules that do not
-      overlap
-    of-middles: the midpoints of the axes are used as the closest points
-    of-starts: the starts of the axes are used as the closest points
-    of-end-pairs: the nearest pair of ends is used as the closest points; the closest
-      points can lie between the ends
-    largest-part: the largest component of p - o is used instead of its norm
-    sum-of-parts: the sum of the components' absolute values is used instead of the norm
-      of p - o
-    in-the-plane 2: your code does not use x in the distance
-    in-the-plane 3: your code does not use y in the distance
-    product-of-radii: the square root of the product of the radii is subtracted.
+    sign: your code reverses the sign. The distance should be positive for capsules that
+      do not overlap
+    of-middles: your code uses the midpoints of the axes as the closest points, but the
+      closest points can be anywhere on the axes
+    of-starts: your code uses the starts of the axes as the closest points, but the
+      closest points can be anywhere on the axes
+    of-end-pairs: your code uses the nearest pair of ends as the closest points, but the
+      closest points can lie between the ends
+    largest-part: your code uses the largest component of p - o instead of its norm
+    sum-of-parts: your code uses the sum of the components' absolute values instead of
+      the norm of p - o
+    in-the-plane 2: your code does not use x in the distance. Use all three coordinates
+    in-the-plane 3: your code does not use y in the distance. Use all three coordinates
+    product-of-radii: your code subtracts the square root of the product of the radii.
       Subtract their sum
-    squares-of-radii: the squares of the radii are subtracted. Subtract the radii
+    squares-of-radii: your code subtracts the squares of the radii. Subtract the radii
       themselves
-    over-the-radii: the distance is divided by the sum of the radii. Subtract the sum
-      instead => |p - o| / (ra + rb) - 1
-    ends-and-middles: your code tests only the ends and the midpoints of both axes; the
-      closest points can lie anywhere between the ends
-    same-share: your code uses the same fraction of the length on both axes; each
+    over-the-radii: your code divides the distance by the sum of the radii. Subtract the
+      sum instead
+    ends-and-middles: your code tests only the ends and the midpoints of both axes, but
+      the closest points can lie anywhere between the ends
+    same-share: your code uses the same fraction of the length on both axes, but each
       closest point has its own
-    twice-the-larger: the larger radius is subtracted twice. Subtract the radius of each
-      capsule once => |p - o| - 2 max(ra, rb)
-    radii-as-sides: the radii are combined as sqrt(ra^2 + rb^2); both lie along the same
-      line, so add them => |p - o| - sqrt(ra^2 + rb^2)
+    twice-the-larger: your code subtracts the larger radius twice. Subtract the radius
+      of each capsule once
+    radii-as-sides: your code combines the radii as sqrt(ra^2 + rb^2), but both lie
+      along the same line, so add them
     root-of-squares: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
-      tangent. The distance is |p - o| - (ra + rb) => this formula, with 0 where they
-      overlap,
+      tangent. The distance is |p - o| - (ra + rb)
     root-of-squares 2: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
-      tangent. The distance is |p - o| - (ra + rb) => this formula, with a minus sign
-      where they overlap,
-    least-part: the smallest component of p - o is used instead of its norm
-    parts-with-signs: the components of p - o are added with their signs. Take the norm
-    parts-with-signs 2: the components of p - o are added with their signs. Take the
-      norm => the absolute value of the sum
+      tangent. The distance is |p - o| - (ra + rb)
+    least-part: your code uses the smallest component of p - o instead of its norm
+    parts-with-signs: your code adds the components of p - o with their signs. Take the
+      norm
+    parts-with-signs 2: your code adds the components of p - o with their signs. Take
+      the norm
     mean-square: your code takes the root of the mean of the squares. Take the root of
       their sum
-    lengths-differ: the norms of p and o are subtracted. Take the norm of p - o => | |p|
-      - |o| |
-    cut-once: the distance is clamped at 0 between the subtractions of ra and rb. Do not
-      clamp it
+    lengths-differ: your code subtracts the norms of p and o. Take the norm of p - o
+    cut-once: your code clamps the distance at 0 between the subtractions of ra and rb.
+      Do not clamp it
     one-number-inside: for capsules that overlap your code always returns -1. The result
       should depend on the penetration depth
     one-number-inside 2: for capsules that overlap your code returns minus the smaller
       radius. The result should depend on the penetration depth
     axes-inside: for capsules that overlap your code returns minus the distance between
       the axes. Subtract the radii from it
-    ends-only: your code assumes that one of the closest points is an end; both points
-      can lie between the ends
-    ends-only 2: your code tests only the ends of the first axis; its closest point can
-      lie between them
-    ends-only 3: your code tests only the ends of the second axis; its closest point can
-      lie between them
-    sampled: your code tests only some points of each axis; the closest points lie
-      between them => the best of 11 x 11 points
-    sampled 2: your code tests only some points of each axis; the closest points lie
-      between them => the best of 21 x 21 points
-    sampled 3: your code tests only some points of each axis; the closest points lie
-      between them => the best of 51 x 51 points
-    sampled 4: your code tests only some points of each axis; the closest points lie
-      between them => the best of 101 x 101 points
+    ends-only: your code assumes that one of the closest points is an end, but both
+      points can lie between the ends
+    ends-only 2: your code tests only the ends of the first axis, but its closest point
+      can lie between them
+    ends-only 3: your code tests only the ends of the second axis, but its closest point
+      can lie between them
+    sampled: your code tests only some points of each axis, but the closest points lie
+      between them
+    sampled 2: your code tests only some points of each axis, but the closest points lie
+      between them
+    sampled 3: your code tests only some points of each axis, but the closest points lie
+      between them
+    sampled 4: your code tests only some points of each axis, but the closest points lie
+      between them
     lines: your code treats the axes as infinite lines. Clamp the closest points to the
-      ends => |(b0 - a0) . n|, where n is the unit vector perpendicular to both,
-    grown-axes: each axis is extended by the radius at both ends, and the radius is also
-      subtracted. Subtract the radius only
+      ends
+    grown-axes: your code extends each axis by the radius at both ends and also
+      subtracts the radius. Subtract the radius only
     starts-and-ends: your code uses the segments from a0 to b0 and from a1 to b1. The
       axes run from a0 to a1 and from b0 to b1
-    in-the-plane: your code does not use z in the distance
+    in-the-plane: your code does not use z in the distance. Use all three coordinates
     """
     p, o = closest_points_segments(a0, a1, b0, b1)
     axes = np.linalg.norm(p - o)

@@ -24,7 +24,7 @@ row = Row(
         HeldOut(
             "side-by-side-not-handled",
             "Your result is wrong for parallel segments side by side. They have many "
-            "closest pairs: return any one of them.",
+            "closest pairs, so return any one of them.",
             lambda rng: pairs.arrays(pairs.ALONGSIDE),
         ),
         HeldOut(
@@ -37,14 +37,14 @@ row = Row(
         HeldOut(
             "point-not-handled",
             "Your result is wrong if a segment is a point, because its length is 0. "
-            "Avoid 0 / 0: use any value of its parameter, then clamp the parameter "
-            "of the other segment.",
+            "Avoid 0 / 0 by using any value of its parameter, and then clamp the "
+            "parameter of the other segment.",
             lambda rng: pairs.arrays(pairs.POINTS),
         ),
         HeldOut(
             "size-absolute",
-            "Your result is correct for lengths in metres, but not in millimetres. "
-            "The unit of a c - b b is a length to the fourth power: compare it with a "
+            "Your result is correct for lengths in metres, but not in millimetres. The "
+            "unit of a c - b b is a length to the fourth power, so compare it with a "
             "fraction of a c, not with a constant.",
             lambda rng: [
                 tuple(0.002 * x for x in pairs.segments(rng, one))
@@ -71,87 +71,91 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, b0, b1):
-    """not-clamped: s and t are not clamped to 0..1, so the points can lie beyond the
-      ends of the segments
-    clamped-apart: s and t are clamped independently; after one of them is clamped, the
-      best value of the other changes
-    s-not-again: s is not recomputed after t was clamped; the best s depends on t => a
-      clamped s and then a clamped t
-    s-not-again 2: t is not recomputed after s was clamped; the best t depends on s => a
-      clamped t and then a clamped s
-    s-not-again 3: t is not recomputed after the last clamp of s; the best t depends on
-      s => a clamped t, a clamped s and the first t
-    t-not-cut: t is never clamped, so its point can lie beyond an end
-    s-not-cut: s is never clamped, so its point can lie beyond an end
-    cut-below-only: s and t are clamped at 0 but not at 1 => the formula with max(x, 0)
-    cut-above-only: s and t are clamped at 1 but not at 0 => the formula with min(x, 1)
-    ends-only: your code assumes that one of the closest points is an end; both points
-      can lie between the ends
-    end-pairs: your code returns the nearest pair of ends; the closest points can lie
-      between the ends
+    """not-clamped: your code does not clamp s and t to [0, 1], so the points can lie
+      beyond the ends of the segments
+    clamped-apart: your code clamps s and t independently, but after one of them is
+      clamped, the best value of the other changes
+    s-not-again: your code does not recompute s after it clamps t, but the best s
+      depends on t
+    s-not-again 2: your code does not recompute t after it clamps s, but the best t
+      depends on s
+    s-not-again 3: your code does not recompute t after the last clamp of s, but the
+      best t depends on s
+    t-not-cut: your code never clamps t, so its point can lie beyond an end
+    s-not-cut: your code never clamps s, so its point can lie beyond an end
+    cut-below-only: your code clamps s and t at 0 but not at 1, so the points can lie
+      beyond the ends
+    cut-above-only: your code clamps s and t at 1 but not at 0, so the points can lie
+      before the starts
+    ends-only: your code assumes that one of the closest points is an end, but both
+      points can lie between the ends
+    end-pairs: your code returns the nearest pair of ends, but the closest points can
+      lie between the ends
     end-pairs 2: your code uses the end of the first segment that is nearest to the
       second. The closest point can lie between the ends
-    w-sign: w has the wrong sign. It should run from the start of the second segment to
-      the start of the first, a0 - b0 => the formula with b0 - a0
-    d-and-e-swapped: d and e are swapped; d = u . w belongs to the first segment
-    numerator-sign: the numerator of s has the wrong sign; s = (b e - c d) / (a c - b b)
-      => the formula with c d - b e
-    b-sign: b has the wrong sign. The derivatives are a s - b t + d and b s - c t + e =>
-      the formula with -b
-    across-plus: the denominator is a c + b b. It should be a c - b b, which is 0 for
+    w-sign: your w has the wrong sign. It should run from the start of the second
+      segment to the start of the first, a0 - b0
+    d-and-e-swapped: your code swaps d and e, but d = u . w belongs to the first segment
+    numerator-sign: your numerator of s has the wrong sign. The parameter s should be (b
+      e - c d) / (a c - b b)
+    b-sign: your b has the wrong sign. The derivatives are a s - b t + d and b s - c t +
+      e
+    across-plus: your denominator is a c + b b. It should be a c - b b, which is 0 for
       parallel segments
-    across-of-lengths: the denominator is a c, which is correct only for perpendicular
+    across-of-lengths: your denominator is a c, which is correct only for perpendicular
       segments. It should be a c - b b
-    swapped-to-s: s and t are swapped
-    points-swapped: the point of the second segment comes first. Return the point of the
-      first segment first
-    middles: your code returns the midpoints of the segments
-    starts: your code returns the starts of the segments
-    same-share: t is set equal to s. Each segment should have its own parameter
+    swapped-to-s: your code swaps s and t. The parameter s belongs to the first segment
+    points-swapped: your point of the second segment comes first. Return the point of
+      the first segment first
+    middles: your code returns the midpoints of the segments, but the closest points can
+      be anywhere on them
+    starts: your code returns the starts of the segments, but the closest points can be
+      anywhere on them
+    same-share: your code sets t equal to s, but each segment has its own parameter
     shares: your code returns s u and t v. Add the starts a0 and b0
-    beyond-the-ends: the points are measured from a1 and b1; s and t are measured from
-      a0 and b0
-    t-from-the-end: t is measured from b1. Measure it from b0
-    s-from-the-end: s is measured from a1. Measure it from a0
-    unit-directions: u and v are normalised, so s and t are in metres, but they are
-      clamped to 0..1 => the formula with unit vectors
+    beyond-the-ends: your points are measured from a1 and b1, but s and t are measured
+      from a0 and b0
+    t-from-the-end: your code measures t from b1. Measure it from b0
+    s-from-the-end: your code measures s from a1. Measure it from a0
+    unit-directions: your code normalises u and v, so s and t are in metres, but it
+      clamps them to [0, 1]
     nearest-to-the-middle: your code returns the midpoint of the second segment and the
       point of the first that is nearest to it
-    sampled: your code tests only some points of each segment; the closest points lie
-      between them => the best of 11 x 11 points
-    sampled 2: your code tests only some points of each segment; the closest points lie
-      between them => the best of 101 x 101 points
-    sampled 3: your code tests only some points of each segment; the closest points lie
-      between them => the best of 21 x 21 points
-    ends-where-cut: where s or t of the lines lies outside 0..1, your code returns the
+    sampled: your code tests only some points of each segment, but the closest points
+      lie between them
+    sampled 2: your code tests only some points of each segment, but the closest points
+      lie between them
+    sampled 3: your code tests only some points of each segment, but the closest points
+      lie between them
+    ends-where-cut: where s or t of the lines lies outside [0, 1], your code returns the
       nearest pair of ends. One of the closest points can still lie between the ends
-    ends-where-cut 2: where s or t of the lines lies outside 0..1, your code tests only
-      the ends of the first segment. Test the ends of the second too => the formula with
-      its ends alone
-    ends-where-cut 3: where s or t of the lines lies outside 0..1, your code tests only
-      the ends of the second segment. Test the ends of the first too => the formula with
-      its ends alone
-    start-where-cut: where s or t of the lines lies outside 0..1, your code sets s to 0.
-      Clamp s instead
-    start-where-cut 2: an s outside 0..1 is set to 0. An s above 1 should become 1
-    start-where-cut 3: an s outside 0..1 is set to 0.5. Clamp it instead
-    start-where-cut 4: s and t outside 0..1 are set to 0. A value above 1 should become
-      1
-    one-end-cut: s is recomputed where t is below 0, but not where t is above 1
-    one-end-cut 2: s is recomputed where t is above 1, but not where t is below 0
-    t-one-end-cut: t is clamped at 1 but not at 0, so its point can lie before b0
-    t-one-end-cut 2: t is clamped at 0 but not at 1, so its point can lie beyond b1
+    ends-where-cut 2: where s or t of the lines lies outside [0, 1], your code tests
+      only the ends of the first segment. Test the ends of the second too
+    ends-where-cut 3: where s or t of the lines lies outside [0, 1], your code tests
+      only the ends of the second segment. Test the ends of the first too
+    start-where-cut: where s or t of the lines lies outside [0, 1], your code sets s to
+      0. Clamp s instead
+    start-where-cut 2: your code sets an s outside [0, 1] to 0. An s above 1 should
+      become 1
+    start-where-cut 3: your code sets an s outside [0, 1] to 0.5. Clamp it instead
+    start-where-cut 4: your code sets s and t outside [0, 1] to 0. A value above 1
+      should become 1
+    one-end-cut: your code recomputes s where t is below 0, but not where t is above 1
+    one-end-cut 2: your code recomputes s where t is above 1, but not where t is below 0
+    t-one-end-cut: your code clamps t at 1 but not at 0, so its point can lie before b0
+    t-one-end-cut 2: your code clamps t at 0 but not at 1, so its point can lie beyond
+      b1
     a-start-alone: your code returns the start of the first segment and the point of the
       second that is nearest to it
     a-middle-alone: your code returns the midpoint of the first segment and the point of
       the second that is nearest to it
     farthest: your code selects the farthest of the candidate pairs. Select the nearest
     one-round: your code sets s = 0 and then computes t and s only once, which does not
-      reach the minimum => one round from s = 0
+      reach the minimum
     one-round 2: your code sets s = 0.5 and then computes t and s only once, which does
-      not reach the minimum => one round from s = 0.5
-    difference: both rows contain the difference of the two points. Return the points
-      themselves
+      not reach the minimum
+    difference: both of your rows contain the difference of the two points. Return the
+      points themselves
     """
     u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
     right = thrice(a, b, c, d, e)
@@ -343,14 +347,14 @@ def least_angle(share):
 
 
 ALIKE = (
-    "your code treats segments that differ by a few degrees as parallel; "
-    "they have a single closest pair"
+    "your code treats segments that differ by a few degrees as parallel, but they have "
+    "a single closest pair"
 )
 SELDOM = "hardly a pair in a run is so nearly parallel"
 row.wrong("nearly-parallel", hidden=SELDOM)(least_angle(1e-3))
 for share in (0.02, 0.05, 0.1):
     what = f"a limit of {share:g} a c for a c - b b"
-    row.wrong("nearly-parallel", ALIKE, what, SELDOM)(least_angle(share))
+    row.wrong("nearly-parallel", ALIKE, hidden=SELDOM)(least_angle(share))
 
 
 def rounds(n, start):
@@ -368,12 +372,12 @@ def rounds(n, start):
 
 
 FEW = (
-    "your code alternates between t and s, but stops after too few iterations; each "
+    "your code alternates between t and s, but it stops after too few iterations. Each "
     "iteration only approaches the minimum"
 )
 for n in (2, 3, 4, 5, 10):
     for start in (0.0, 0.5):
-        row.wrong("few-rounds", FEW, f"{n} rounds from s = {start:g}")(rounds(n, start))
+        row.wrong("few-rounds", FEW)(rounds(n, start))
 
 
 @row.right  # The inner pair if it is one, else the nearest of four ends.

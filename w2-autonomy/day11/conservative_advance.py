@@ -113,80 +113,81 @@ def _(rng):
 )
 def _(s, distance, delta_q, radii):
     """no-bound: your code adds the distance in metres to s. Divide it by the bound on
-      the motion per unit of s first => s + distance
-    signs-kept: the sum keeps the signs of delta_q, so opposite rotations cancel. Take
-      absolute values => the formula with delta_q instead of |delta_q|
-    signs-kept 2: the absolute value is taken after the sum, so opposite rotations
-      cancel. Take it for each joint => |delta_q . radii|
-    fastest-joint-only: your bound uses only the largest product; the motions of all
-      joints add up => the largest |delta_q_i| radii_i
-    fastest-joint-only 2: your bound uses only the largest |delta_q|; the motions of all
-      joints add up => the largest |delta_q| times the largest radius
-    norm-of-dq: the norm of delta_q times the largest radius is not an upper bound. Add
-      |delta_q_i| radii_i over all joints
+      the motion per unit of s first
+    signs-kept: your sum keeps the signs of delta_q, so opposite rotations cancel. Take
+      absolute values
+    signs-kept 2: your code takes the absolute value after the sum, so opposite
+      rotations cancel. Take it for each joint
+    fastest-joint-only: your bound uses only the largest product, but the motions of all
+      joints add up
+    fastest-joint-only 2: your bound uses only the largest |delta_q|, but the motions of
+      all joints add up
+    norm-of-dq: your bound is the norm of delta_q times the largest radius, which is not
+      an upper bound. Add |delta_q_i| radii_i over all joints
     norm-of-products: your code takes the norm of the products |delta_q_i| radii_i. Take
       their sum
     norm-of-products 2: your code multiplies the norm of delta_q by the norm of radii.
       Add the products |delta_q_i| radii_i
     largest-reach: your code uses the largest radius for every joint, which is safe but
       not the bound in the task
-    reach-forgotten: the radii are missing; a rotation in radians becomes a distance
-      only when multiplied by a radius => the distance divided by the sum of |delta_q|
-    dq-forgotten: delta_q is missing in the bound => the distance divided by the sum of
-      the radii
-    of-what-is-left: the step is multiplied by 1 - s; delta_q belongs to the whole
-      motion, so this factor is wrong
-    of-what-is-left 2: the step is divided by 1 - s; delta_q belongs to the whole
-      motion, so this factor is wrong
-    half-a-step: the step is half as long as the bound allows
-    twice-a-step: the step is twice as long as the bound allows
-    multiplied: the distance is multiplied by the bound. Divide by it, because a faster
-      motion needs a shorter step
+    reach-forgotten: your code omits the radii, but a rotation in radians becomes a
+      distance only when multiplied by a radius
+    dq-forgotten: your code omits delta_q in the bound, but a longer motion needs a
+      shorter step
+    of-what-is-left: your code multiplies the step by 1 - s, but delta_q belongs to the
+      whole motion, so this factor is wrong
+    of-what-is-left 2: your code divides the step by 1 - s, but delta_q belongs to the
+      whole motion, so this factor is wrong
+    half-a-step: your step is half as long as the bound allows. Use the whole step
+    twice-a-step: your step is twice as long as the bound allows, so the arm can hit the
+      obstacle
+    multiplied: your code multiplies the distance by the bound. Divide by it, because a
+      faster motion needs a shorter step
     s-forgotten: your code returns the step alone. Add it to s
-    not-capped: the result can exceed 1, the end of the motion
+    not-capped: your result can exceed 1, the end of the motion. Limit it to 1
     standing-still: if no joint moves, your code divides by 0. Return 1, because the
       rest of the motion is collision-free
     standing-still 2: if no joint moves, your code returns s. Return 1, because the rest
       of the motion is collision-free
     goes-back-inside: if the arm is already in contact, your code moves back. Return s
-      itself => s - |d| / bound
+      itself
     goes-on-inside: if the arm is already in contact, your code moves on. Return s
-      itself => the formula with |d|
+      itself
     stops-inside: if the arm is already in contact, your code returns 1. Return s itself
     stops-inside 2: if the arm is already in contact, your code returns 0. Return s
       itself
     still-before-touching: your code tests for a motion of 0 before it tests for
       contact. If the arm is in contact, return s even if no joint moves
-    reach-backwards: the radii are in reverse order; the first radius belongs to joint 1
-    reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii;
-      each joint has its own radius
+    reach-backwards: your radii are in reverse order, but the first radius belongs to
+      joint 1
+    reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii,
+      but each joint has its own radius
     reaches-summed 2: your code multiplies the largest |delta_q| by the sum of the
-      radii; each joint has its own radius
-    reaches-summed 3: your code multiplies the norm of delta_q by the sum of the radii;
-      each joint has its own radius
-    one-direction: negative entries of delta_q are treated as 0; rotations in both
-      directions move the arm
-    one-left-out: the last joint is missing in the sum
-    one-left-out 2: the first joint is missing in the sum
-    chord: your code uses the chord 2 sin(delta_q / 2); a point moves along the arc,
+      radii, but each joint has its own radius
+    reaches-summed 3: your code multiplies the norm of delta_q by the sum of the radii,
+      but each joint has its own radius
+    one-direction: your code treats negative entries of delta_q as 0, but rotations in
+      both directions move the arm
+    one-left-out: your code omits the last joint in the sum
+    one-left-out 2: your code omits the first joint in the sum
+    chord: your code uses the chord 2 sin(delta_q / 2), but a point moves along the arc,
       which is longer
-    mean-of-joints: your bound is the mean over the joints; the motions of all joints
-      add up
-    step-capped: the step is limited to 1, but s plus the step can exceed 1. Limit the
-      sum => s + min(1, step)
-    limit-of-the-whole: the limit compares the distance with the bound of the whole
-      motion. Compare it with the bound of the rest, 1 - s times as much => the formula
-      with that comparison
+    mean-of-joints: your bound is the mean over the joints, but the motions of all
+      joints add up
+    step-capped: your code limits the step to 1, but s plus the step can exceed 1. Limit
+      the sum
+    limit-of-the-whole: your limit compares the distance with the bound of the whole
+      motion. Compare it with the bound of the rest, 1 - s times as much
     step-capped 2: your code returns the smaller of 1 - s and the step. Return the
-      smaller of 1 and s + step => min(1 - s, step)
-    max-for-min: max is used instead of min, so the result is never below 1
+      smaller of 1 and s + step
+    max-for-min: your code uses max instead of min, so the result is never below 1
     shares-summed: your code adds the steps that each joint alone would allow. Add the
       motions first, then divide
-    careful: your code uses only a part of the step that the bound allows => 0.9 of this
+    careful: your code uses only a part of the step that the bound allows. Use the whole
       step
-    careful 2: your code uses only a part of the step that the bound allows => 0.95 of
-      this step
-    time: your code returns the number of steps, 1 / step
+    careful 2: your code uses only a part of the step that the bound allows. Use the
+      whole step
+    time: your code returns the number of steps, 1 / step. Return s + step
     """
     speed = np.abs(delta_q) @ radii
     inside = distance <= 0
@@ -263,8 +264,8 @@ def _(s, distance, delta_q, radii):
 
 @row.wrong
 def far_is_free(s, distance, delta_q, radii):
-    """if the distance is more than half a metre, your code returns 1; a long motion
-    can use up any distance => 1 where the distance is above 0.5"""
+    """if the distance is more than half a metre, your code returns 1, but a long motion
+    can use up any distance"""
     if distance <= 0:
         return s
     speed = np.abs(delta_q) @ radii

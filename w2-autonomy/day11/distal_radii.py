@@ -57,88 +57,86 @@ def _(rng):
 
 @row.wrongs
 def _(link_lengths, link_radii):
-    """to-the-tip-only: your bound uses only the last link; a point on an earlier link
-      can be farther away => the sum of the link lengths plus the radius of the last
-      link
-    own-link-only: your bound uses only the joint's own link; the joint also moves the
-      distal links
-    next-only: your bound stops at the next link. Use the result for the next joint =>
-      the larger of the link radius and link length + next link radius
+    """to-the-tip-only: your bound uses only the last link. A point on an earlier link
+      can be farther away, so take the maximum over all distal links
+    own-link-only: your bound uses only the joint's own link, but the joint also moves
+      the distal links
+    next-only: your bound stops at the next link. Use the result for the next joint
     from-the-base: your code measures from the base. Measure from joint i to the links
-      distal to it => the sum of the link lengths before it + link radius
-    offset-one-late: the link length of the next joint is used; link_lengths[i] is the
-      distance from link i to the next link => the formula with link_lengths[i + 1]
-    offset-of-the-last: the length of the last link is added; no link follows it
-    offset-of-the-last 2: the length of the last link is used as a radius; no link
-      follows it
-    offset-to-its-own: the link length is also added to the joint's own link radius. Add
-      this length only for the distal links
+      distal to it
+    offset-one-late: your code uses the link length of the next joint, but
+      link_lengths[i] is the distance from link i to the next link
+    offset-of-the-last: your code adds the length of the last link, but no link follows
+      it
+    offset-of-the-last 2: your code uses the length of the last link as a radius, but no
+      link follows it
+    offset-to-its-own: your code also adds the link length to the joint's own link
+      radius. Add this length only for the distal links
     far-forgotten: your code adds only the link lengths. Include the link radii
-    offsets-forgotten: the link lengths are missing, so the result is the largest link
-      radius
-    all-summed: your code adds the radii of all distal links; only one point is the
-      farthest => the sum of all link lengths and all link radii
-    largest-far: the largest link radius is used at the end of the arm; each radius
-      belongs to its own link
-    least: your code takes the smallest distance; the upper bound is the largest
-    not-in-a-row: the links beyond the next one are missing. Use the result for the next
-      joint, not its link radius
-    euclid: the lengths are combined as the root of a sum of squares; in the stretched
-      arm they add up
+    offsets-forgotten: your code omits the link lengths, so the result is the largest
+      link radius
+    all-summed: your code adds the radii of all distal links, but only one point is the
+      farthest
+    largest-far: your code uses the largest link radius at the end of the arm, but each
+      radius belongs to its own link
+    least: your code takes the smallest distance, but the upper bound is the largest
+      distance
+    not-in-a-row: your code omits the links beyond the next one. Use the result for the
+      next joint, not its link radius
+    euclid: your code combines the lengths as the root of a sum of squares, but in the
+      stretched arm they add up
     one-for-all: your code returns the largest result for every joint. Each joint should
       have its own
-    backwards: the result is in reverse order; its first entry belongs to joint 1
-    sum-from-the-base: the link lengths are summed from the base to the joint. Sum them
-      from the joint to the distal link
-    far-of-its-own: the sum of all distal link lengths is combined with the radius of
-      the joint's own link
-    far-of-its-own 2: the sum of all distal link lengths is combined with the radius of
-      the joint's own link
+    backwards: your result is in reverse order, but its first entry belongs to joint 1
+    sum-from-the-base: your code sums the link lengths from the base to the joint. Sum
+      them from the joint to the distal link
+    far-of-its-own: your code combines the sum of all distal link lengths with the
+      radius of the joint's own link
+    far-of-its-own 2: your code combines the sum of all distal link lengths with the
+      radius of the joint's own link
     forwards: your code works from the base outwards. Start at the last joint, because a
-      joint moves the links distal to it => the larger of the link radius and the length
-      before + the result before
-    less-the-base: your code uses the farthest point of the whole arm for every joint;
-      only the links distal to the joint matter => the overall maximum minus the link
-      lengths before the joint
-    less-the-base 2: the farthest distal point is measured from the base. Measure it
-      from the joint => the formula with the link lengths before it
+      joint moves the links distal to it
+    less-the-base: your code uses the farthest point of the whole arm for every joint,
+      but only the links distal to the joint matter
+    less-the-base 2: your code measures the farthest distal point from the base. Measure
+      it from the joint
     largest-far-behind: your bound adds the largest distal link radius to the distance
       of the last joint. Each radius should be added to the distance of its own joint,
-      and then you take the maximum => the distance of the last joint plus the largest
-      link radius
-    largest-far-behind 2: the largest link radius beyond the next joint is placed at the
-      last link; each radius belongs to its own link
-    own-offset-repeated: the joint's own link length is repeated for every distal link;
-      each link has its own length => the formula with link_lengths[i] for all
-    offset-of-the-one-before: the link length of the previous joint is used;
-      link_lengths[i] is the distance from link i to the next link => the formula with
-      link_lengths[i - 1]
-    far-of-the-next: the radius of the next link is used instead of the joint's own link
-      radius => the larger of the next link radius and link length + next result
-    own-left-out: the joint's own link is missing; the farthest point can be on it
-    own-or-tip: your bound uses only the joint's own link and the last link; a point
+      and then you take the maximum
+    largest-far-behind 2: your code places the largest link radius beyond the next joint
+      at the last link, but each radius belongs to its own link
+    own-offset-repeated: your code repeats the joint's own link length for every distal
+      link, but each link has its own length
+    offset-of-the-one-before: your code uses the link length of the previous joint, but
+      link_lengths[i] is the distance from link i to the next link
+    far-of-the-next: your code uses the radius of the next link instead of the joint's
+      own link radius
+    own-left-out: your code omits the joint's own link, but the farthest point can be on
+      it
+    own-or-tip: your bound uses only the joint's own link and the last link, but a point
       between them can be farther away
-    two-behind-only: your bound uses only the next two links
-    sum-not-largest: the link radius is added to the maximum of the link length and the
-      next result. Take the maximum of the link radius and their sum
+    two-behind-only: your bound uses only the next two links, but the joint moves all
+      distal links
+    sum-not-largest: your code adds the link radius to the maximum of the link length
+      and the next result. Take the maximum of the link radius and their sum
     largest-of-three: your code takes the maximum of the link radius, the link length
       and the next result. Add the last two first
-    largest-far-next: the largest link radius is added to the link length. Add the
-      result for the next joint => the larger of the link radius and link length +
-      largest link radius
-    mean-not-largest: your code takes the mean over the distal links; an upper bound is
-      the maximum
+    largest-far-next: your code adds the largest link radius to the link length. Add the
+      result for the next joint
+    mean-not-largest: your code takes the mean over the distal links, but an upper bound
+      is the maximum
     offsets-alone: your code takes the maximum of the link radius and the sum of the
       link lengths. Add the distal radii to the lengths
-    last-link-forgotten: the radius of the last link is treated as 0
-    last-link-forgotten 2: the last link is missing => the formula without the radius of
-      the last link
+    last-link-forgotten: your code treats the radius of the last link as 0. Use the last
+      entry of link_radii
+    last-link-forgotten 2: your code omits the last link, but its farthest point can be
+      the farthest of all
     offsets-to-the-end: your code adds all link lengths, including the last one, and the
       radius of the last link. No link follows the last one
-    offset-too-early: the length after each link is added before the radius of that
-      link; this length belongs to the next link
-    far-twice: the joint's own link radius and the radius of the farthest link are both
-      added; only one point is the farthest
+    offset-too-early: your code adds the length after each link before the radius of
+      that link, but this length belongs to the next link
+    far-twice: your code adds both the joint's own link radius and the radius of the
+      farthest link, but only one point is the farthest
     """
     n = len(link_radii)
     right = distal_radii(link_lengths, link_radii)

@@ -81,58 +81,60 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p, o, link):
-    """towards-the-obstacle: the signs are reversed; the distance grows along p - o =>
-      the formula with o - p
-    columns-behind-kept: the entries of the joints distal to the link are not 0; these
-      joints do not move the link => the formula with all columns
-    own-joint-left-out: the entry of the link's own joint is 0; link 4 is moved by
-      joints 1 to 4 => the formula with 0 from joint `link` on
-    one-column-too-many: the entry of joint `link` + 1 is not 0; this joint moves only
-      distal links
+    """towards-the-obstacle: your code reverses the signs. The distance grows along p -
+      o, not along o - p
+    columns-behind-kept: your entries of the joints distal to the link are not 0, but
+      these joints do not move the link
+    own-joint-left-out: your entry of the link's own joint is 0, but joint 4, for
+      example, also moves link 4
+    one-column-too-many: your entry of joint `link` + 1 is not 0, but this joint moves
+      only distal links
     from-the-link-on: your code keeps the link's own joint and the joints distal to it.
       Keep the joints up to the link
-    first-joint-left-out: the entry of joint 1 is 0; joint 1 moves every link
-    own-joint-only: only the entry of the link's own joint is not 0; every joint up to
-      the link moves it
+    first-joint-left-out: your entry of joint 1 is 0, but joint 1 moves every link
+    own-joint-only: in your result, only the entry of the link's own joint is not 0, but
+      every joint up to the link moves it
     columns-before-dropped: your code keeps the joints distal to the link. Keep the
       joints up to the link
-    rotation-forgotten: omega x p has no effect, because it is missing or has p - o
-      instead of p; v alone is the velocity of the point at the world origin => n . v
-    rotation-only: v is missing; the velocity of p is v + omega x p => n . omega x p
-    cross-the-other-way: the cross product has the wrong order; the velocity of p is v +
-      omega x p => the formula with p x omega
-    normal-not-unit: the normal is not normalised, so the result is multiplied by the
-      distance => the formula with p - o
-    normal-squared: the normal is divided by the squared distance. Divide by the
+    rotation-forgotten: the term omega x p has no effect in your code, because it is
+      missing or has p - o instead of p. The velocity v alone is the velocity of the
+      point at the world origin
+    rotation-only: your code omits v, but the velocity of p is v + omega x p
+    cross-the-other-way: your cross product has the wrong order. The velocity of p is v
+      + omega x p
+    normal-not-unit: your code does not normalise the normal, so the result is
+      multiplied by the distance
+    normal-squared: your code divides the normal by the squared distance. Divide by the
       distance
-    half: the result has an extra factor 1/2
-    normal-of-p: the normal points from the world origin to p. It should point from o to
-      p => the formula with p / |p|
-    normal-of-o: the normal points from the world origin to o. It should point from o to
-      p
-    only-along-z: only the z component is used. Project the velocity on the normal
+    half: your result has an extra factor 1/2. Remove it
+    normal-of-p: your normal points from the world origin to p. It should point from o
+      to p
+    normal-of-o: your normal points from the world origin to o. It should point from o
+      to p
+    only-along-z: your code uses only the z component. Project the velocity on the
+      normal
     not-projected: your code returns the speed of p. Return the component of the
       velocity along the normal
-    size-only: the absolute values are returned; a negative entry means that the
-      distance falls
-    parts-added: the normal is divided by the sum of the components' absolute values.
-      Divide by the norm of p - o
-    largest-part: the normal is divided by the largest component. Divide by the norm of
-      p - o
-    two-directions: p and o are normalised separately. Normalise their difference => p /
-      |p| - o / |o|
-    parts-summed: the absolute values of the velocity components are added. Project the
-      velocity on the normal
-    summed-up: the entries are cumulative sums; each entry belongs to one joint
-    one-place-early: each entry is one position too early; the first entry belongs to
-      joint 1
-    one-place-late: each entry is one position too late; the first entry belongs to
-      joint 1
-    backwards: the joints are in reverse order
-    backwards 2: the joints up to the link are in reverse order
-    own-length: the result is normalised. Return the gradient itself
+    size-only: your code returns the absolute values, but a negative entry means that
+      the distance falls
+    parts-added: your code divides the normal by the sum of the components' absolute
+      values. Divide by the norm of p - o
+    largest-part: your code divides the normal by the largest component. Divide by the
+      norm of p - o
+    two-directions: your code normalises p and o separately. Normalise their difference
+    parts-summed: your code adds the absolute values of the velocity components. Project
+      the velocity on the normal
+    summed-up: your entries are cumulative sums, but each entry belongs to one joint
+    one-place-early: each of your entries is one position too early. The first entry
+      belongs to joint 1
+    one-place-late: each of your entries is one position too late. The first entry
+      belongs to joint 1
+    backwards: your joints are in reverse order. The first entry belongs to joint 1
+    backwards 2: your joints up to the link are in reverse order. The first entry
+      belongs to joint 1
+    own-length: your code normalises the result. Return the gradient itself
     of-the-square: your code returns the gradient of the squared distance, 2 d times the
-      gradient of d
+      gradient of d. Return the gradient of d
     """
     n = (p - o) / np.linalg.norm(p - o)
     w, v = J_space[:3].T, J_space[3:].T

@@ -10,9 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from labkit.inspector import words
-from labkit.inspector.page import Page
-from labkit.inspector.tab import Tab
+from labkit.inspector import declared as ui
 from labkit.lesson.day import find_day
 from labkit.lesson.lab_module import lab_of
 from robo47 import distance, panda, shapes
@@ -23,15 +21,8 @@ LAB = lab_of(find_day(11))  # its gain and margin
 TOP = 0.9  # m, height of the post; it leans, so that no capsule is parallel to it
 LEAN = 0.09  # m
 FAST = 0.25  # m/s, of a push
-HZ = 20.0
-LASTS = 4.0  # s
+SLOWED = "push with damper"
 FULL = 0.8  # m/rad, where a bar ends
-PUSH, SLOWED, STOP = "push", "push with damper", "stop"
-JOINTS = [f"joint{i}" for i in range(1, 8)]
-UNITS = {"capsule_distance": "m", "closest_points_segments": "m",
-         "distance_gradient": "m/rad",
-         "velocity_damper": "rad/s"}  # fmt: skip
-SMALL = 1e-5  # m and m/rad, a difference that is not visible on a screen
 
 
 class Pair(NamedTuple):
@@ -43,166 +34,121 @@ class Pair(NamedTuple):
     slope: Array  # m/rad, (7,)
 
 
-class Near(Tab):
+class Near(ui.Declared):
     """The distance of the arm from a post, and its gradient."""
 
     title = "Near"
-    wide = True
+    library = distance
+    functions = {
+        "capsule_distance": "m", "closest_points_segments": "m",
+        "distance_gradient": "m/rad", "velocity_damper": "rad/s",
+    }  # fmt: skip
+    hz, plays = 20.0, 4.0
 
-    def __init__(self, page: Page) -> None:
-        """Draw arm and post, and compute the distance for the first time."""
-        super().__init__(page)
-        self.arm = shapes.Shape(page.model)
-        self.screws = panda.screws(page.model)
-        self.x = 500.0
-        self.y = 150.0
-        self.radius = 40.0
-        self.how = STOP
-        self.begun = page.q
-        self.left = page.q  # where a push left the arm
-        self.own = page.own(distance, units=UNITS)
-        page.slider("post, x", 250, 700, self.x, self.sets("x"), unit="mm", step=5)
-        page.slider("post, y", -400, 400, self.y, self.sets("y"), unit="mm", step=5)
-        page.slider("radius", 10, 100, self.radius, self.sets("radius"), unit="mm",
-                    step=5)  # fmt: skip
-        page.buttons([PUSH, SLOWED, STOP], self.press)
-        self.text = page.html()
-        title = "gradient of the distance (marks: library)"
-        self.bars = page.bars(JOINTS, FULL, "m/rad", title, "both")
-        self.post = page.draw.lines(outline(*self.stands()), "orange", 2)
-        self.capsules = page.draw.lines(np.zeros((1, 2, 3)), "grey", 1)
-        self.right = page.draw.lines(np.zeros((1, 2, 3)), "green", 9)
-        self.line = page.draw.lines(np.zeros((1, 2, 3)), "red", 4)
-        page.legend({"yours: closest points": "red", "the library's": "green"})
-        self.loop = page.animate(self.shown, HZ, work=self.step)
-        self.went = self.look(page.q[:7])
-        self.on_move(page.q)
+    x = ui.slider("post, x", 250, 700, 500.0, "mm", 5)
+    y = ui.slider("post, y", -400, 400, 150.0, "mm", 5)
+    radius = ui.slider("radius", 10, 100, 40.0, "mm", 5)
+    how = ui.buttons("push", SLOWED, "stop", then="press")
+    bars = ui.panel.bars(
+        panda.ARM_JOINTS, FULL, "m/rad", "gradient of the distance (marks: library)"
+    )
+    post = ui.scene.lines(ui.NOWHERE, "orange", 2)
+    capsules = ui.scene.lines(ui.NOWHERE, "grey", 1)
+    theirs = ui.scene.lines(
+        ui.NOWHERE, "green", 9, legend="the library's closest points"
+    )
+    line = ui.yours.lines(ui.NOWHERE, "red", 4, legend="yours")
 
-    def begin(self) -> None:
-        """Push by the student's `velocity_damper`, from where the last push began."""
-        self.press(STOP)
+    def prepare(self) -> None:
+        """Load the arm's capsules."""
+        self.arm = shapes.Shape(self.page.model)
+        self.screws = panda.screws(self.page.model)
+        self.begun = self.left = self.page.q  # where a push began, and left the arm
+
+    def press(self) -> None:
+        """Start or stop a push."""
+        self.loop.stop()
+        if self.how != "stop":
+            self.loop.start(self.plays)
+
+    def restart(self) -> None:
+        """Push through the damper, from where the last push began."""
         if np.array_equal(self.page.q, self.left):
             self.page.move(self.begun)
         self.begun = self.page.q
-        self.press(SLOWED)
-
-    def stands(self) -> tuple[Array, Array, float]:
-        """Return the ends and the radius of the post, m."""
-        at = np.array([self.x, self.y, 0.0]) / 1000
-        return at, at + np.array([0.0, LEAN, TOP]), self.radius / 1000
+        self.how = SLOWED
 
     def on_move(self, q: Array) -> None:
-        """Compute again: arm, post or file may have changed."""
-        self.post.points = outline(*self.stands())
-        self.draw_arm(q)
+        """Draw arm and post, and ask, unless a push does that."""
+        self.post.points = outline(*post_of(self))
+        ends = zip(self.arm.ends(q[:7]), self.arm.radii, strict=True)
+        self.capsules.points = np.vstack([outline(*some, r) for some, r in ends])
         if not self.loop.running:
-            post = self.stands()
-            self.page.job(lambda: (q, post, self.ask(q[:7], post)), self.answered)
+            self.request()
 
-    def draw_arm(self, q: Array) -> None:
-        """Draw the arm's capsules where they are."""
-        ends = self.arm.ends(q[:7])
-        made = zip(ends, self.arm.radii, strict=True)
-        self.capsules.points = np.vstack([outline(*some, r) for some, r in made])
-
-    def answered(self, asked: tuple[Array, tuple, Pair]) -> None:
-        """Show the result, unless arm or post has moved meanwhile."""
-        q, post, pair = asked
-        now = (*map(tuple, post[:2]), post[2])
-        here = (*map(tuple, self.stands()[:2]), self.stands()[2])
-        if now == here and np.array_equal(q, self.page.q):
-            self.show(pair, self.look(q[:7]))
-
-    def look(self, q: Array) -> Pair:
-        """Return the nearest pair by the library."""
-        b0, b1, r = self.stands()
-        ends = self.arm.ends(q)
-        far = [
-            distance.capsule_distance(*some, ra, b0, b1, r)
+    def ask(self, fns, at) -> Pair:
+        """Return the nearest capsule, its closest points and the gradient."""
+        b0, b1, r = post_of(at)
+        ends = self.arm.ends(at.q[:7])
+        far = fns.many(*(
+            ("capsule_distance", *some, float(ra), b0, b1, r)
             for some, ra in zip(ends, self.arm.radii, strict=True)
-        ]
-        k = int(np.argmin(far))
-        p, o = distance.closest_points_segments(*ends[k], b0, b1)
-        link = int(self.arm.links[k])
-        J = space_jacobian(self.screws, q)
-        slope = distance.distance_gradient(J, p, o, link)
-        return Pair(link, far[k], np.stack([p, o]), slope)
-
-    def ask(self, q: Array, post: tuple[Array, Array, float]) -> Pair:
-        """Return the nearest pair by the student's functions."""
-        b0, b1, r = post
-        ends = self.arm.ends(q)
-        radii = map(float, self.arm.radii)
-        far = self.own.many(*(
-            ("capsule_distance", *some, ra, b0, b1, r)
-            for some, ra in zip(ends, radii, strict=True)
         ))  # fmt: skip
         k = int(np.argmin(far))
-        points = self.own.closest_points_segments(*ends[k], b0, b1)
+        points = fns.closest_points_segments(*ends[k], b0, b1)
         link = int(self.arm.links[k])
-        J = space_jacobian(self.screws, q)
-        slope = self.own.distance_gradient(J, points[0], points[1], link)
-        return Pair(link, float(far[k]), points, slope)
+        J = space_jacobian(self.screws, at.q[:7])
+        slope = fns.distance_gradient(J, points[0], points[1], link)
+        return Pair(link, float(far[k]), np.asarray(points), slope)
 
-    def press(self, name: str) -> None:
-        """Push, push with damper, or stop."""
-        self.how = name
-        self.loop.stop()
-        if name != STOP:
-            self.loop.start()
-
-    def step(self, seconds: float) -> None:
-        """Move the arm by one frame; wait for the student's functions."""
-        q = self.page.q.copy()
-        self.went = self.ask(q[:7], self.stands())
-        b0, b1, _ = self.stands()
+    def advance(self, seconds: float) -> None:
+        """Move the arm towards the post for the time of one picture."""
+        at = self.at()
+        self.pairs = at, mine, _ = self.both(at)
+        q = at.q.copy()
         tip = self.arm.ends(q[:7])[-1, 1]
-        _, goal = distance.closest_points_segments(tip, tip, b0, b1)
+        _, goal = distance.closest_points_segments(tip, tip, *post_of(at)[:2])
         J = site_jacobian(space_jacobian(self.screws, q[:7]), tip)[3:]
         way = goal - tip
         v = FAST * way / max(float(np.linalg.norm(way)), 0.02)
         qd = dls_step(J, v, LAB.DAMPING)
         if self.how == SLOWED:
-            d = self.went.far - LAB.MARGIN
-            qd = self.own.velocity_damper(qd, self.went.slope, d, LAB.GAIN)
+            d = mine.far - LAB.MARGIN
+            qd = self.own.velocity_damper(qd, mine.slope, d, LAB.GAIN)
         low, high = self.page.model.jnt_range[:7].T
-        q[:7] = np.clip(q[:7] + qd / HZ, low, high)
+        q[:7] = np.clip(q[:7] + qd / self.hz, low, high)
         self.next = q
 
-    def shown(self, seconds: float) -> bool:
-        """Show where the arm is now; end after a while."""
-        q = self.page.q
-        self.show(self.went, self.look(q[:7]))
+    def frame(self, seconds: float) -> None:
+        """Show where the arm is now."""
+        self.answered(self.pairs)
         self.page.move(self.next)
         self.left = self.next
-        return seconds < LASTS
 
     def show(self, yours: Pair, right: Pair) -> None:
-        """Show both lines, both gradients, and whether yours equal the library's."""
-        self.line.points = yours.points[None].astype(np.float32)
-        self.right.points = right.points[None].astype(np.float32)
+        """Show both lines and both gradients."""
+        self.line.points, self.theirs.points = yours.points[None], right.points[None]
         self.bars.show(np.clip(yours.slope, -9.99, 9.99), right.slope)
-        apart = abs(yours.far - right.far) < SMALL
-        alike = bool(np.all(np.abs(yours.slope - right.slope) < SMALL))
-        ours = f"library {1000 * right.far:.1f} mm, link {right.link}"
-        mine = f"yours {1000 * yours.far:.1f} mm, link {yours.link}"
-        touch = "; the shapes overlap" if right.far < 0 else ""
-        self.text.content = "".join(
-            words.line(text, key, kind)
-            for text, key, kind in (
-                (f"{mine}; {ours}{touch}", "far", "good" if apart else "bad"),
-                (f"your gradient {'equals' if alike else 'differs from'} the library's",
-                 "slope", "good" if alike else "bad"),
-            )
-        )  # fmt: skip
 
-    def lost(self) -> None:
-        """Show no numbers, and no line between points but the library's."""
-        right = self.look(self.page.q[:7])
-        self.right.points = right.points[None].astype(np.float32)
-        self.text.content = ""
-        self.bars.clear()
-        self.line.points = np.zeros((1, 2, 3), np.float32)
+    def says(self, yours: Pair, right: Pair):
+        """Compare the distance and the gradient with the library's."""
+        touch = "; the shapes overlap" if right.far < 0 else ""
+        yield (
+            f"Your distance is {1000 * yours.far:.1f} mm, at link {yours.link}; "
+            f"the library's is {1000 * right.far:.1f} mm, at link {right.link}{touch}.",
+            "capsule_distance",
+        )
+        wrong = self.kind_of("closest_points_segments distance_gradient") == "bad"
+        yield (
+            f"Your gradient {'differs from' if wrong else 'equals'} the library's.",
+            "closest_points_segments distance_gradient",
+        )
+
+
+def post_of(at) -> tuple[Array, Array, float]:
+    """Return the ends and the radius of the post, m."""
+    foot = np.array([at.x, at.y, 0.0]) / 1000
+    return foot, foot + np.array([0.0, LEAN, TOP]), at.radius / 1000
 
 
 def outline(a: Array, b: Array, radius: float, n: int = 12) -> Array:
@@ -221,7 +167,7 @@ def outline(a: Array, b: Array, radius: float, n: int = 12) -> Array:
         for side in (x, y):
             arc = end + radius * (np.cos(bow) * side + np.sin(bow) * out)
             made.append(np.stack([arc[:-1], arc[1:]], axis=1))
-    return np.vstack(made).astype(np.float32)
+    return np.vstack(made)
 
 
 TABS = [Near]

@@ -119,76 +119,77 @@ MORE = (
 )
 def _(qd, grad, distance, gain):
     """always: your code changes velocities that are already allowed. Return qd for them
-    not-divided: the correction is not divided by grad . grad
-    divided-by-the-length: the correction is divided by the norm of grad. Divide it by
-      grad . grad
-    pushed-in: the correction has the wrong sign, so the arm moves nearer to the
+    not-divided: your code does not divide the correction by grad . grad, so its size is
+      wrong unless grad has norm 1
+    divided-by-the-length: your code divides the correction by the norm of grad. Divide
+      it by grad . grad
+    pushed-in: your correction has the wrong sign, so the arm moves nearer to the
       obstacle
-    all-joints-slowed: all joints are scaled by one factor. Change only the component
-      along grad
-    all-joints-slowed 2: all joints are scaled by one factor. Change only the component
-      along grad => qd times the ratio of the bound to grad . qd
+    all-joints-slowed: your code scales all joints by one factor. Change only the
+      component along grad
+    all-joints-slowed 2: your code scales all joints by one factor. Change only the
+      component along grad
     stops-dead: your code stops the arm if it would be too fast. Keep the part of the
       velocity that is allowed
     stops-dead 2: your code stops the arm if it would be too fast, and also if grad is
       0. Keep the part of the velocity that is allowed
-    part-removed: the whole component along grad is removed; an approach within the
-      bound is allowed => the formula without it
-    sign-of-the-bound: the bound has the wrong sign; the condition is grad . qd >= -gain
-      distance
-    distance-sign-lost: the absolute value of the distance is used. A negative distance
-      should give a positive bound, which moves the arm away => the formula with
-      |distance|
-    gain-forgotten: the gain is missing in the bound
-    distance-forgotten: the distance is missing in the bound
-    distance-over-gain: the distance is divided by the gain. Multiply them
-    wrong-side: the comparison is reversed, so your code changes allowed velocities and
-      keeps those that are too fast => the formula with >
+    part-removed: your code removes the whole component along grad, but an approach
+      within the bound is allowed
+    sign-of-the-bound: your bound has the wrong sign. The condition is grad . qd >=
+      -gain distance
+    distance-sign-lost: your code uses the absolute value of the distance. A negative
+      distance should give a positive bound, which moves the arm away
+    gain-forgotten: your code omits the gain in the bound
+    distance-forgotten: your code omits the distance in the bound
+    distance-over-gain: your code divides the distance by the gain. Multiply them
+    wrong-side: your code reverses the comparison, so it changes allowed velocities and
+      keeps those that are too fast
     leaving-forbidden: your code also limits velocities away from the obstacle. Limit
       only the approach
-    joint-by-joint: the bound is applied to each joint separately; it limits the sum
-      grad . qd
-    joint-by-joint 2: each joint velocity is clamped to the bound; the bound is in m/s
-      and limits the sum grad . qd => np.maximum(qd, -gain distance)
-    largest-joint-only: only the joint with the largest entry of grad is changed; the
-      smallest change is along grad
-    slope-unit: grad is normalised before grad . qd is compared with the bound, which
-      changes the value of grad . qd
-    only-inside: your code limits the velocity only if the distance is negative
+    joint-by-joint: your code applies the bound to each joint separately, but it limits
+      the sum grad . qd
+    joint-by-joint 2: your code clamps each joint velocity to the bound, but the bound
+      is in m/s and limits the sum grad . qd
+    largest-joint-only: your code changes only the joint with the largest entry of grad,
+      but the smallest change is along grad
+    slope-unit: your code normalises grad before it compares grad . qd with the bound,
+      which changes the value of grad . qd
+    only-inside: your code limits the velocity only if the distance is negative. Limit
+      it at every distance
     standing-still: if grad is 0, your code divides by 0. Return qd
-    part-alone: only the component along grad is returned. Keep the other components of
-      qd => grad bound / grad^2
+    part-alone: your code returns only the component along grad. Keep the other
+      components of qd
     left-where-it-overlaps: if the distance is not positive, your code returns qd. The
       correction should move the arm away
     stopped-where-it-overlaps: if the distance is not positive, your code returns 0.
       Keep the part of the velocity that leads away
-    no-way-out: a negative distance is clamped to 0, so the arm is not moved away
-    coming-near: your code changes every velocity towards the obstacle; an approach
+    no-way-out: your code clamps a negative distance to 0, so the arm is not moved away
+    coming-near: your code changes every velocity towards the obstacle, but an approach
       within the bound is allowed
-    by-the-sizes: absolute values are compared, so a fast motion away from the obstacle
-      is changed too => the formula with |grad . qd| and |distance|
-    half-of-it: only half of the correction is added
-    twice-of-it: twice the correction is added
-    one-joint-only: only the first joint is changed; the smallest change is along grad
-    one-joint-only 2: only the joint with the fastest approach is changed; the smallest
-      change is along grad
-    alike: every joint gets the same correction. Make it proportional to grad => the
-      missing speed divided by the sum of grad
-    by-signs: every joint gets a correction of the same size. Make it proportional to
-      grad => the missing speed divided by the sum of |grad|, with the signs of grad,
-    a-seventh-each: each joint provides a seventh of the correction. Make it
+    by-the-sizes: your code compares absolute values, so a fast motion away from the
+      obstacle is changed too
+    half-of-it: your code adds only half of the correction. Add the whole correction
+    twice-of-it: your code adds twice the correction. Add it once
+    one-joint-only: your code changes only the first joint, but the smallest change is
+      along grad
+    one-joint-only 2: your code changes only the joint with the fastest approach, but
+      the smallest change is along grad
+    alike: your code gives every joint the same correction. Make it proportional to grad
+    by-signs: your code gives every joint a correction of the same size. Make it
       proportional to grad
-    divided-by-the-sum: the correction is divided by the sum of grad. Divide it by grad
-      . grad
-    divided-by-the-largest: the correction is divided by the square of the largest entry
-      of grad. Divide it by grad . grad
-    divided-by-qd: the correction is divided by qd . qd. Divide it by grad . grad
-    those-that-come-near: only joints that approach the obstacle are changed; the
-      smallest change is along all of grad
-    those-that-come-near 2: joints that approach the obstacle are stopped. Keep the part
-      of the velocity that is allowed
-    rate-added: grad . qd is added to the bound. Subtract it from the bound to get the
-      missing speed => the formula with -gain distance + grad . qd
+    a-seventh-each: your code gives each joint a seventh of the correction. Make it
+      proportional to grad
+    divided-by-the-sum: your code divides the correction by the sum of grad. Divide it
+      by grad . grad
+    divided-by-the-largest: your code divides the correction by the square of the
+      largest entry of grad. Divide it by grad . grad
+    divided-by-qd: your code divides the correction by qd . qd. Divide it by grad . grad
+    those-that-come-near: your code changes only joints that approach the obstacle, but
+      the smallest change is along all of grad
+    those-that-come-near 2: your code stops joints that approach the obstacle. Keep the
+      part of the velocity that is allowed
+    rate-added: your code adds grad . qd to the bound. Subtract it from the bound to get
+      the missing speed
     lack-alone: your code returns the correction alone. Add it to qd
     """
     bound = -gain * distance

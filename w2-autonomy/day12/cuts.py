@@ -92,90 +92,96 @@ def _placed(how: Callable[[Any], int], more: int) -> Any:
 OPTIONS = [
     Option("not-sorted", "your code skips a pair if its first row is the larger one. "
         "Sort the two rows", {"order": list}),
-    Option("not-checked", "your code removes the points without testing whether the"
-                          " new edge is free",
+    Option("not-checked", "your code removes the points without testing the new edge. "
+                          "Remove them only if this edge is free",
            {"check": lambda a, b, world: True}),
-    Option("hit-for-free", "the test is inverted, so your code applies shortcuts "
-                           "that are blocked",
+    Option("hit-for-free", "your code inverts the test, so it applies shortcuts that "
+                           "are blocked",
            {"check": lambda a, b, world: not edge_free(a, b, world)}),
     Option("only-the-ends-checked", "your code tests only the two points. Test the "
                                     "edge between them", {"check": _ends_free}),
     Option("middle-checked", "your code tests only the midpoint of the edge. Test "
                              "the whole edge",
            {"check": _middle_free}),
-    Option("next-edge-checked", "your code tests the edge from i to i + 1; test the"
-                                " edge from i to j", {"edge": lambda i, j: (i, i + 1)}),
-    Option("edge-before-checked", "your code tests the edge from i to j - 1; test "
-                                  "the edge from i to j",
+    Option("next-edge-checked", "your code tests the edge from i to i + 1. Test the "
+                                "edge from i to j", {"edge": lambda i, j: (i, i + 1)}),
+    Option("edge-before-checked", "your code tests the edge from i to j - 1. Test the "
+                                  "edge from i to j",
            {"edge": lambda i, j: (i, j - 1)}),
-    Option("edge-before-checked", "your code tests the edge from j - 1 to j; test "
-                                  "the edge from i to j",
+    Option("edge-before-checked", "your code tests the edge from j - 1 to j. Test the "
+                                  "edge from i to j",
            {"edge": lambda i, j: (j - 1, j)}),
-    Option("edge-of-the-start", "your code tests the edge from the start of the "
-                                "path to j; test the edge from i to j",
+    Option("edge-of-the-start", "your code tests the edge from the start of the path "
+                                "to j. Test the edge from i to j",
            {"edge": lambda i, j: (0, j)}),
-    Option("edge-to-the-end", "your code tests the edge from i to the end of the "
-                              "path; test the edge from i to j",
+    Option("edge-to-the-end", "your code tests the edge from i to the end of the path. "
+                              "Test the edge from i to j",
            {"edge": lambda i, j: (i, -1)}),
-    Option("end-to-end-checked", "your code tests the edge from the start to the "
-                                 "end of the path; test the edge from i to j",
+    Option("end-to-end-checked", "your code tests the edge from the start to the end "
+                                 "of the path. Test the edge from i to j",
            {"edge": lambda i, j: (0, -1)}),
-    *(Option("indices-of-the-first-path", "the pairs refer to rows of the original "
-                                          f"path{how}; they should refer to the "
-                                          "current path", {"fixed": fixed})
+    *(Option("indices-of-the-first-path", f"your pairs refer to "
+                                          f"rows of the original "
+                                          f"path{how}. They should "
+                                          f"refer to the current "
+                                          f"path", {"fixed": fixed})
       for fixed, how in (("mask", ""), ("clamped", ", but the indices are used in "
                                                    "the current path"),
                          ("skipped", ", but the indices are used in the current "
                                      "path if they still exist"),
                          ("present", ", if both rows still exist"))),
-    *(Option(slug, f"{says}; use int(u m)", {"places": _placed(how, more)})
+    *(Option(slug, f"{says}. Use int(u m)", {"places": _placed(how, more)})
       for slug, says, how, more in (
-        ("rounded", "u m is rounded to the nearest integer", round, 0),
-        ("rounded", "u (m - 1) is rounded to the nearest integer", round, -1),
-        ("rounded-up", "u m is rounded up", lambda x: int(np.ceil(x)), 0),
-        ("rounded-up", "u (m - 1) is rounded up", lambda x: int(np.ceil(x)), -1),
-        ("of-m-minus-one", "u is multiplied by m - 1", int, -1),
-        ("of-m-plus-one", "u is multiplied by m + 1", int, 1))),
-    Option("end-never-named", "one row uses m - 1, and the other row is shifted by "
-                              "one; use int(u m) for both", {"places": lambda pair, m: [
+        ("rounded", "your code rounds u m to the nearest integer", round, 0),
+        ("rounded", "your code rounds u (m - 1) to the nearest integer", round, -1),
+        ("rounded-up", "your code rounds u m up", lambda x: int(np.ceil(x)), 0),
+        ("rounded-up", "your code rounds u (m - 1) up", lambda x: int(np.ceil(x)), -1),
+        ("of-m-minus-one", "your code multiplies u by m - 1", int, -1),
+        ("of-m-plus-one", "your code multiplies u by m + 1", int, 1))),
+    Option("end-never-named", "your code uses m - 1 for one row and shifts the other "
+                              "row by one. Use int(u m) "
+                              "for both", {"places": lambda pair, m: [
                int(min(pair) * (m - 1)), int(max(pair) * (m - 1)) + 1]}),
     Option("two-apart-left", "your code skips rows that are two apart", {"least": 2}),
     Option("three-apart-left", "your code skips rows that are two or three apart",
            {"least": 3}),
-    Option("pairs-backwards", "the pairs are used in reverse order",
+    Option("pairs-backwards", "your code uses the pairs in reverse order",
            {"used": lambda pairs: pairs[::-1]}),
-    Option("first-pair-left-out", "the first pair is not used",
+    Option("first-pair-left-out", "your code does not use the first pair",
            {"used": lambda pairs: pairs[1:]}),
-    Option("last-pair-left-out", "the last pair is not used",
+    Option("last-pair-left-out", "your code does not use the last pair",
            {"used": lambda pairs: pairs[:-1]}),
-    Option("first-pair-only", "only the first pair is used",
+    Option("first-pair-only", "your code uses only the first pair",
            {"used": lambda pairs: pairs[:1]}),
-    Option("pairs-twice", "all pairs are used a second time",
+    Option("pairs-twice", "your code uses all pairs a second time",
            {"used": lambda pairs: np.concatenate([pairs, pairs])}),
     Option("first-cut-only", "your code stops after the first shortcut. Try all "
                              "pairs",
            {"ends": "cut"}),
-    Option("ends-when-blocked", "your code stops at the first pair without a "
-                                "shortcut; try all pairs", {"ends": "blocked"}),
-    Option("one-node-short", "row j is removed too; keep it", {"join": _kept(0, 1)}),
-    Option("one-node-short", "row i is removed too; keep it", {"join": _kept(-1, 0)}),
-    Option("both-ends-short", "rows i and j are removed too; keep them",
+    Option("ends-when-blocked", "your code stops at the first pair without a shortcut. "
+                                "Try all pairs", {"ends": "blocked"}),
+    Option("one-node-short", "your code removes row j too. "
+                             "Keep it", {"join": _kept(0, 1)}),
+    Option("one-node-short", "your code removes row i too. "
+                             "Keep it", {"join": _kept(-1, 0)}),
+    Option("both-ends-short", "your code removes rows i and j too. Keep them",
            {"join": _kept(-1, 1)}),
-    Option("one-too-many", "the row before j is kept; remove it",
+    Option("one-too-many", "your code keeps the row before j. Remove it",
            {"join": _kept(0, -1)}),
-    Option("one-too-many", "the row after i is kept; remove it", {"join": _kept(1, 0)}),
-    Option("one-row-only", "only the row after i is removed; remove all rows "
+    Option("one-too-many", "your code keeps the row after i. "
+                           "Remove it", {"join": _kept(1, 0)}),
+    Option("one-row-only", "your code removes only the row after i. Remove all rows "
                            "between i and j",
            {"join": lambda p, i, j: np.delete(p, i + 1, axis=0)}),
-    Option("one-row-only", "only the row before j is removed; remove all rows "
+    Option("one-row-only", "your code removes only the row before j. Remove all rows "
                            "between i and j",
            {"join": lambda p, i, j: np.delete(p, j - 1, axis=0)}),
-    Option("middle-put-in", "the midpoint of the edge is inserted; do not add a "
+    Option("middle-put-in", "your code inserts the midpoint of the edge. Do not add a "
                             "point",
            {"join": lambda p, i, j: np.vstack([p[: i + 1], (p[i] + p[j])[None] / 2,
                                                p[j:]])}),
-    Option("ends-at-i", "the path ends at i", {"join": lambda p, i, j: p[: i + 1]}),
-    Option("begins-at-j", "the path begins at j", {"join": lambda p, i, j: p[j:]}),
+    Option("ends-at-i", "your path ends at i", {"join": lambda p, i, j: p[: i + 1]}),
+    Option("begins-at-j", "your path begins at j", {"join": lambda p, i, j: p[j:]}),
     Option("inside-kept", "your code keeps the rows between i and j and removes the"
                           " rest",
            {"join": lambda p, i, j: p[i : j + 1]}),

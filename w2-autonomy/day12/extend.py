@@ -130,47 +130,49 @@ def _part_of_the_way(node, i, q, world):
 
 @row.wrongs
 def _(tree, sample, step, world):
-    """from-the-newest: the tree grows from its newest node. It should grow from the
+    """from-the-newest: your tree grows from its newest node. It should grow from the
       node nearest to the sample
-    from-the-root: the tree grows from its root. It should grow from the node nearest to
-      the sample
-    sample-itself: the new node is the sample itself. Limit the edge to one step with
+    from-the-root: your tree grows from its root. It should grow from the node nearest
+      to the sample
+    sample-itself: your new node is the sample itself. Limit the edge to one step with
       `steer`
-    sample-itself 2: the new node is the sample itself, and the whole edge to it is
-      tested. Limit the edge to one step with `steer`
+    sample-itself 2: your new node is the sample itself, and your code tests the whole
+      edge to it. Limit the edge to one step with `steer`
     point-only: your code tests only the new point. Test the whole edge to it
     node-only: your code tests only the node from which the tree grows. Test the whole
       edge
     always-free: your code does not test the edge, so it reports every edge as free
-    never-free: your code reports that no edge is free
-    edge-from-the-root: your code tests the edge from the root to the new point; the
+    never-free: your code reports that no edge is free. Test the edge to the new point
+    edge-from-the-root: your code tests the edge from the root to the new point, but the
       edge starts at the nearest node
     edge-to-the-sample: your code tests the edge to the sample. Test only the edge to
       the new point
-    edge-of-two-steps: your code tests an edge of two steps; the tree grows by one step
+    edge-of-two-steps: your code tests an edge of two steps, but the tree grows by one
+      step
     edge-on-from-there: your code tests the edge from the new point to the sample. Test
       the edge from the nearest node to the new point
-    hit-for-free: the third result is inverted. It should be True if the edge is free
+    hit-for-free: your code inverts the third result. It should be True if the edge is
+      free
     stays-where-blocked: if the edge is not free, your code returns the nearest node.
       Return the new point in both cases
     index-of-the-new: your code returns the index of the new node. Return the index of
       the node from which the tree grows
-    away: the tree grows away from the sample. Call `steer` with the node first and the
+    away: your tree grows away from the sample. Call `steer` with the node first and the
       sample second
-    from-the-sample: your code steers from the sample to the node; steer from the node
+    from-the-sample: your code steers from the sample to the node. Steer from the node
       to the sample
-    from-the-sample 2: your code steers from the sample to the node; steer from the node
-      to the sample => a step from the sample, and the edge from the node to its end,
-    farthest: the tree grows from the node farthest from the sample. It should grow from
-      the nearest node
-    largest-difference: the nearest node is chosen by the largest difference of a
-      coordinate. Use the Euclidean distance
-    largest-difference 2: the nearest node, and its distance, is found by the largest
-      difference of a coordinate. Use the Euclidean distance
-    sum-of-differences: the nearest node is chosen by the sum of the absolute
+    from-the-sample 2: your code steers from the sample to the node. Steer from the node
+      to the sample
+    farthest: your tree grows from the node farthest from the sample. It should grow
+      from the nearest node
+    largest-difference: your code chooses the nearest node by the largest difference of
+      a coordinate. Use the Euclidean distance
+    largest-difference 2: your code finds the nearest node, and its distance, by the
+      largest difference of a coordinate. Use the Euclidean distance
+    sum-of-differences: your code chooses the nearest node by the sum of the absolute
       differences. Use the Euclidean distance
-    squared-for-plain: the step is divided by the squared distance to the sample. Divide
-      it by the distance
+    squared-for-plain: your code divides the step by the squared distance to the sample.
+      Divide it by the distance
     root-to-the-sample: your code tests the edge from the root to the sample. Test the
       edge from the nearest node to the new point
     standing-is-blocked: if the sample equals a node, your code reports a blocked edge.
@@ -179,23 +181,22 @@ def _(tree, sample, step, world):
       reports every edge of such a world as free
     own-is-blocked: your code does not call the method `edge_free` of the world, so it
       reports every edge of such a world as blocked
-    free-if-reached: your code reports a free edge only if the sample is reached; a step
-      towards the sample is an edge too
-    reached-is-free: if the sample is reached, your code does not test the edge
+    free-if-reached: your code reports a free edge only if the step reaches the sample,
+      but a step towards the sample is an edge too
+    reached-is-free: if the step reaches the sample, your code does not test the edge
     ends-only: your code tests only the two ends of the edge. Test the points between
       them too
-    twice-a-step: the edge has a length of two steps. Limit it to one step
-    half-a-step: the edge has a length of half a step. Use the whole step
-    unit-step: the edge has length 1. Use the argument `step`
-    added-twice: the result of `steer` is added to the node; `steer` already returns a
-      point, not a displacement
+    twice-a-step: your edge has a length of two steps. Limit it to one step
+    half-a-step: your edge has a length of half a step. Use the whole step
+    unit-step: your edge has length 1. Use the argument `step`
+    added-twice: your code adds the result of `steer` to the node, but `steer` already
+      returns a point, not a displacement
     nearest-of-the-free: your code selects the nearest node among those with a free
       edge. Select the nearest node of all and report whether its edge is free
     sample-where-blocked: if the edge is not free, your code returns the sample. Return
       the new point in both cases
     part-of-the-way: if the edge is not free, your code shortens it until it is free.
-      Leave the new point as it is and return False => an edge that is halved until it
-      is free
+      Leave the new point as it is and return False
     """
     own = world is not discs_of(world)
     world = discs_of(world)

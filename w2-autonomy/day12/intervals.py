@@ -69,24 +69,24 @@ OPTIONS = [
         "for 1.96", 2.576), ("half-z", "0.98 stands for 1.96", 0.98),
     ]),
     *_each("p", [
-        ("one-more", "p is (k + 1) / (n + 2); use k / n",
+        ("one-more", "your p is (k + 1) / (n + 2). Use k / n",
          lambda k, n: (k + 1) / (n + 2)),
-        ("half-more", "p is (k + 1/2) / (n + 1); use k / n",
+        ("half-more", "your p is (k + 1/2) / (n + 1). Use k / n",
          lambda k, n: (k + 0.5) / (n + 1)),
-        ("two-more", "p is (k + 2) / (n + 4); use k / n",
+        ("two-more", "your p is (k + 2) / (n + 4). Use k / n",
          lambda k, n: (k + 2) / (n + 4)),
-        ("n-plus-one", "p is k / (n + 1); use k / n", lambda k, n: k / (n + 1)),
-        ("n-less-one", "p is k / (n - 1); use k / n",
+        ("n-plus-one", "your p is k / (n + 1). Use k / n", lambda k, n: k / (n + 1)),
+        ("n-less-one", "your p is k / (n - 1). Use k / n",
          lambda k, n: k / max(n - 1, 1)),
-        ("whole-division", "p is k // n, which is 0 or 1; use k / n",
+        ("whole-division", "your p is k // n, which is 0 or 1. Use k / n",
          lambda k, n: k // n),
-        ("shifted-p", "p is (k + z^2 / 2) / (n + z^2), which is the centre of the "
-                      "interval; use k / n", lambda k, n: (k + Z**2 / 2) / (n + Z**2)),
-        ("failures", "p is the proportion of failures; use k / n",
+        ("shifted-p", "your p is (k + z^2 / 2) / (n + z^2), which is the centre of the "
+                      "interval. Use k / n", lambda k, n: (k + Z**2 / 2) / (n + Z**2)),
+        ("failures", "your p is the proportion of failures. Use k / n",
          lambda k, n: (n - k) / n),
     ]),
     *_each("moved", [
-        (slug, f"the centre is shifted by {says}; shift it by z^2 / (2 n)", of)
+        (slug, f"your centre is shifted by {says}. Shift it by z^2 / (2 n)", of)
         for slug, says, of in (
             ("centre-not-moved", "nothing", lambda z, n: 0.0),
             ("two-n", "z^2 / n", lambda z, n: z**2 / n),
@@ -99,14 +99,14 @@ OPTIONS = [
             ("one-for-z2", "1 / (2 n)", lambda z, n: 1 / (2 * n)))
     ]),
     *_each("front", [
-        ("z-forgotten", "the factor z of the root is missing", lambda z: 1.0),
-        ("z-squared", "the root is multiplied by z^2; multiply it by z",
+        ("z-forgotten", "your code omits the factor z of the root", lambda z: 1.0),
+        ("z-squared", "your code multiplies the root by z^2. Multiply it by z",
          lambda z: z * z),
-        ("half-width", "the root is multiplied by z / 2; multiply it by z",
+        ("half-width", "your code multiplies the root by z / 2. Multiply it by z",
          lambda z: z / 2),
     ]),
     *_each("noise", [
-        (slug, f"the root contains {says}; it should contain p (1 - p) / n", of)
+        (slug, f"your root contains {says}. It should contain p (1 - p) / n", of)
         for slug, says, of in (
             ("n-less-one", "p (1 - p) / (n - 1)",
              lambda p, n: p * (1 - p) / max(n - 1, 1)),
@@ -120,8 +120,8 @@ OPTIONS = [
             ("noise-forgotten", "no p (1 - p) / n", lambda p, n: 0.0))
     ]),
     *_each("more", [
-        (slug, f"the second term under the root is {says}; it should be z^2 / (4 "
-               "n^2)", of)
+        (slug, f"your second term under the root is {says}. It should be z^2 / (4 "
+               f"n^2)", of)
         for slug, says, of in (
             ("width-without-z2", "nothing", lambda z, n: 0.0),
             ("n-for-n2", "z^2 / (4 n)", lambda z, n: z**2 / (4 * n)),
@@ -135,8 +135,8 @@ OPTIONS = [
              lambda z, n: -(z**2) / (4 * n**2)))
     ]),
     *_each("below", [
-        (slug, f"the centre and the half-width are divided by {says}; divide them by"
-               " 1 + z^2 / n", of)
+        (slug, f"your code divides the centre and the half-width by {says}. "
+               f"Divide them by 1 + z^2 / n", of)
         for slug, says, of in (
             ("not-divided", "nothing", lambda z, n: 1.0),
             ("n-times", "n + z^2", lambda z, n: n + z**2),
@@ -146,8 +146,8 @@ OPTIONS = [
             ("z2-alone", "1 + z^2", lambda z, n: 1 + z**2))
     ]),
     *_each("below_width", [
-        (slug, f"the half-width is divided by {says}; divide the centre and the "
-               "half-width by 1 + z^2 / n", of)
+        (slug, f"your code divides the half-width by {says}. Divide the centre "
+               f"and the half-width by 1 + z^2 / n", of)
         for slug, says, of in (
             ("width-not-divided", "nothing", lambda z, n: 1.0),
             ("width-by-n", "n", lambda z, n: float(n)),
@@ -156,43 +156,45 @@ OPTIONS = [
              lambda z, n: np.sqrt(1 + z**2 / n)))
     ]),
     *_each("around", [
-        ("continuity", "1 / (2 n) is added to the half-width",
+        ("continuity", "your code adds 1 / (2 n) to the half-width",
          lambda a, n: a + 1 / (2 * n)),
-        ("half-width", "the interval has half of the correct width",
+        ("half-width", "your interval has half of the correct width. The half-width "
+                       "should be added and subtracted",
          lambda a, n: a / 2),
-        ("not-rooted", "the half-width is squared", lambda a, n: a * a),
+        ("not-rooted", "your code squares the half-width", lambda a, n: a * a),
     ]),
     *_each("out", [
-        ("percent", "the result is in percent; return a proportion",
+        ("percent", "your result is in per cent. Return a proportion",
          lambda ends, n: 100 * ends),
-        ("counts", "your code returns counts; return proportions",
+        ("counts", "your code returns counts. Return proportions",
          lambda ends, n: n * ends),
-        ("cut", "the ends are clamped to the range 0.01 to 0.99", lambda ends, n:
+        ("cut", "your code clamps the ends to the range from 0.01 to "
+                "0.99", lambda ends, n:
          np.clip(ends, 0.01, 0.99)),
-        ("cut", "the ends are clamped to the range 0 to 1",
+        ("cut", "your code clamps the ends to the range from 0 to 1",
          lambda ends, n: np.clip(ends, 0, 1)),
-        ("high-first", "the upper end comes first. Return the lower end first",
+        ("high-first", "your upper end comes first. Return the lower end first",
          lambda ends, n: ends[::-1]),
-        ("low-is-zero", "the lower end is always 0; the interval has two sides",
+        ("low-is-zero", "your lower end is always 0, but the interval has two sides",
          lambda ends, n: np.array([0.0, ends[1]])),
-        ("high-is-one", "the upper end is always 1; the interval has two sides",
+        ("high-is-one", "your upper end is always 1, but the interval has two sides",
          lambda ends, n: np.array([ends[0], 1.0])),
-        ("low-alone", "both entries are the lower end",
+        ("low-alone", "both of your entries are the lower end",
          lambda ends, n: ends[[0, 0]]),
-        ("high-alone", "both entries are the upper end",
+        ("high-alone", "both of your entries are the upper end",
          lambda ends, n: ends[[1, 1]]),
         ("middle-and-width", "your code returns the centre and the half-width. "
                              "Return the two ends", lambda ends, n:
          np.array([ends.mean(), np.diff(ends)[0] / 2])),
     ]),
     *_each("none", [
-        ("none-is-zero", "for n = 0 your code returns (0, 0); return (0, 1)",
+        ("none-is-zero", "for n = 0 your code returns (0, 0). Return (0, 1)",
          (0.0, 0.0)),
-        ("none-is-half", "for n = 0 your code returns (1/2, 1/2); return (0, 1)",
+        ("none-is-half", "for n = 0 your code returns (1/2, 1/2). Return (0, 1)",
          (0.5, 0.5)),
-        ("none-is-one", "for n = 0 your code returns (1, 1); return (0, 1)",
+        ("none-is-one", "for n = 0 your code returns (1, 1). Return (0, 1)",
          (1.0, 1.0)),
-        ("none-is-turned", "for n = 0 your code returns (1, 0); return (0, 1)",
+        ("none-is-turned", "for n = 0 your code returns (1, 0). Return (0, 1)",
          (1.0, 0.0)),
     ]),
     *_each("without", [
@@ -238,16 +240,16 @@ def _of_z(trials: Sequence[Asked]) -> Finding | None:
         zs = np.array(some)[np.isfinite(some)]
         if len(zs) > 5 and np.ptp(zs) < 1e-6 and abs(zs[0] - Z) > 1e-5 and zs[0] > 0:
             says = (
-                f"z is {zs[0]:.4g} in every call, {how}; for 95 % of a normal "
-                "distribution "
+                f"your z is {zs[0]:.4g} in every call, {how}. For 95 % of a normal "
+                f"distribution "
             )
             return Finding("another-z", f"{says}z is 1.96.")
     pairs = [z for z in (_both_z(one) for one in trials) if z]
     if len(pairs) > 5 and all(abs(low - high) < 1e-6 for low, high in pairs):
         least, most = min(pairs)[0], max(pairs)[0]
-        says = f"z ranges from {least:.4g} to {most:.4g} in Wilson's formula"
+        says = f"your z ranges from {least:.4g} to {most:.4g} in Wilson's formula"
         if most - least > FAR:
-            return Finding("z-changes", f"{says}; use 1.96 for all n.")
+            return Finding("z-changes", f"{says}. Use 1.96 for all n.")
     return None
 
 

@@ -137,103 +137,113 @@ def _same_limit(choose: Callable[[Array], float]) -> Any:
 OPTIONS = [
     *(Option(slug, says, {"two_ds": of}, alone="points" in slug)
       for slug, says, of in (
-        ("ds-for-2-ds", "sd^2 grows by ds u in a step. It should grow by 2 ds u",
+        ("ds-for-2-ds", "your sd^2 grows by ds u in a step. It should grow by 2 ds u",
          lambda n: 1 / n),
-        ("four-ds", "sd^2 grows by 4 ds u in a step. It should grow by 2 ds u",
+        ("four-ds", "your sd^2 grows by 4 ds u in a step. It should grow by 2 ds u",
          lambda n: 4 / n),
-        ("half-ds", "sd^2 grows by ds u / 2 in a step; it should grow by 2 ds u",
+        ("half-ds", "your sd^2 grows by ds u / 2 in a step. It should grow by 2 ds u",
          lambda n: 0.5 / n),
-        ("points-for-steps", "ds is 1 / (N + 1); N + 1 points have N steps, so ds "
-                             "is 1 / N",
+        ("points-for-steps", "your ds is 1 / (N + 1). The N + 1 points have N steps "
+                             "between them, so ds should be 1 / N",
          lambda n: 2 / (n + 1)),
-        ("points-for-steps", "ds is 1 / (N - 1); N + 1 points have N steps, so ds "
-                             "is 1 / N",
+        ("points-for-steps", "your ds is 1 / (N - 1). The N + 1 points have N steps "
+                             "between them, so ds should be 1 / N",
          lambda n: 2 / max(n - 1, 1)),
-        ("points-for-steps", "ds is 1 / (N + 2); N + 1 points have N steps, so ds "
-                             "is 1 / N",
+        ("points-for-steps", "your ds is 1 / (N + 2). The N + 1 points have N steps "
+                             "between them, so ds should be 1 / N",
          lambda n: 2 / (n + 2)),
-        ("ds-forgotten", "ds is missing or is 1; it should be 1 / N", lambda n: 2.0),
-        ("ds-forgotten", "the factor 2 ds is missing or is 1; ds should be 1 / N",
+        ("ds-forgotten", "your code omits ds, or its ds is 1. It "
+                         "should be 1 / N", lambda n: 2.0),
+        ("ds-forgotten", "your code omits the factor 2 ds, or this factor is 1. The "
+                         "step ds should be 1 / N",
          lambda n: 1.0))),
-    Option("sd-for-sd2", "`path_accel_bounds` is called with sd^2. Its argument should "
-        "be sd",
+    Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2. Its argument "
+                         "should be sd",
            {"sd": lambda x: x}),
-    Option("sd-for-sd2", "in the forward pass `path_accel_bounds` is called with sd^2. "
-        "Its argument should be sd",
+    Option("sd-for-sd2", "in the forward pass your code calls `path_accel_bounds` with "
+                         "sd^2. Its argument should be sd",
            {"forward_sd": lambda x: x}),
-    Option("sd-squared-twice", "`path_accel_bounds` is called with sd^4; its "
-                               "argument is sd",
+    Option("sd-squared-twice", "your code calls `path_accel_bounds` with sd^4. Its "
+                               "argument should be sd",
            {"sd": lambda x: x * x}, alone=True),
-    Option("at-rest", "`path_accel_bounds` is called with sd = 0 in both passes",
+    Option("at-rest", "your code calls `path_accel_bounds` with sd = 0 in both passes",
            {"sd": lambda x: 0.0 * x}, alone=True),
-    Option("at-rest", "in the forward pass `path_accel_bounds` is called with sd = "
-                      "0",
+    Option("at-rest", "in the forward pass, your code calls `path_accel_bounds` with "
+                      "sd = 0",
            {"forward_sd": lambda x: 0.0 * x}, alone=True),
-    Option("start-not-at-rest", "the motion starts with the largest sd^2 from which"
-                                " it can stop. Start with 0", {"start": "K"}),
-    Option("end-not-at-rest", "the backward pass starts with sd2_max at the end. "
+    Option("start-not-at-rest", "your motion starts with the largest sd^2 from which "
+                                "it can stop. Start with 0", {"start": "K"}),
+    Option("end-not-at-rest", "your backward pass starts with sd2_max at the end. "
                               "Start with 0",
            {"last": False}),
     *(Option(slug, says, {"passes": one}) for slug, says, one in (
-        ("no-braking", "there is no backward pass", "forward"),
-        ("backward-pass-only", "there is no forward pass", "back"),
-        ("smaller-of-two-passes", "the two passes are computed independently, and "
-                                  "the minimum is taken; the forward pass must use "
-                                  "the limits from the backward pass",
+        ("no-braking", "your code has no backward pass", "forward"),
+        ("backward-pass-only", "your code has no forward pass", "back"),
+        ("smaller-of-two-passes", "your code computes the two passes independently and "
+                                  "takes the minimum. The forward pass should use the "
+                                  "limits from the backward pass",
          "smaller"))),
-    *(Option("few-bisections", f"the bisection stops too early, after {n} halvings",
+    *(Option("few-bisections", f"your bisection stops too early, after {n} halvings",
            {"bisections": n}, alone=True)
       for n in (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20)),
-    Option("bobrow", "in the backward pass the smallest sdd of a step is computed "
-                     "at its end; use its first point",
+    Option("bobrow", "in the backward pass, your code computes the smallest sdd of a "
+                     "step at its end. Use its first point",
            {"swept": True}),
-    Option("limits-of-the-next-point", "in both passes the bounds on sdd for a step "
-        "are computed at the end of the step. Compute them at its first point",
+    Option("limits-of-the-next-point", "in both passes your code computes the bounds "
+                                       "on sdd for a step at the end of the step. "
+                                       "Compute them at its first point",
            {"back_at": 1, "at": 1}),
-    Option("limits-of-the-next-point", "in the backward pass the bounds on sdd for a "
-        "step are computed at the end of the step. Compute them at its first point",
+    Option("limits-of-the-next-point", "in the backward pass your code computes the "
+                                       "bounds on sdd for a step at the end of the "
+                                       "step. Compute them at its first point",
         {"back_at": 1}),
-    Option("limits-of-the-next-point", "in the forward pass the bounds on sdd for a "
-        "step are computed at the end of the step. Compute them at its first point",
+    Option("limits-of-the-next-point", "in the forward pass your code computes the "
+                                       "bounds on sdd for a step at the end of the "
+                                       "step. Compute them at its first point",
         {"at": 1}),
     *(Option(slug, says, {"pull": of}, alone=True) for slug, says, of in (
-        ("limits-of-the-first-point", "every step uses a, b and c of the first "
-                                      "point; use the values of each point",
+        ("limits-of-the-first-point", "every step in your code uses a, b and c of the "
+                                      "first point. Use the values of each point",
          lambda *rows: tuple(np.broadcast_to(x[0], x.shape) for x in rows)),
-        ("limits-of-the-last-point", "every step uses a, b and c of the last point;"
-                                     " use the values of each point",
+        ("limits-of-the-last-point", "every step in your code uses a, b and c of the "
+                                     "last point. Use the values of each point",
          lambda *rows: tuple(np.broadcast_to(x[-1], x.shape) for x in rows)),
-        ("gravity-forgotten", "gravity is missing in the torques",
+        ("gravity-forgotten", "your code omits gravity in the torques",
          lambda A, B, G: (A, B, 0 * G)),
-        ("gravity-of-the-first-point", "every point uses the gravity of the first "
-                                       "point",
+        ("gravity-of-the-first-point", "every point in your code uses the gravity of "
+                                       "the first point",
          lambda A, B, G: (A, B, np.broadcast_to(G[0], G.shape))),
-        ("gravity-sign", "the sign of gravity is reversed", lambda A, B, G: (A, B, -G)),
-        ("coriolis-forgotten", "b is missing in the torques",
+        ("gravity-sign", "your code reverses the sign "
+                         "of gravity", lambda A, B, G: (A, B, -G)),
+        ("coriolis-forgotten", "your code omits b in the torques",
          lambda A, B, G: (A, 0 * B, G)),
-        ("coriolis-sign", "the sign of b is reversed", lambda A, B, G: (A, -B, G)),
-        ("B-and-G-exchanged", "b and c are swapped", lambda A, B, G: (A, G, B)),
-        ("A-and-B-exchanged", "a and b are swapped", lambda A, B, G: (B, A, G)))),
+        ("coriolis-sign", "your code reverses the sign "
+                          "of b", lambda A, B, G: (A, -B, G)),
+        ("B-and-G-exchanged", "your code swaps b and c", lambda A, B, G: (A, G, B)),
+        ("A-and-B-exchanged", "your code swaps a and b", lambda A, B, G: (B, A, G)))),
     *(Option(slug, says, {"most": of}, alone=True) for slug, says, of in (
-        ("no-speed-limit", "sd2_max is not used", lambda x: np.full_like(x, 1e3)),
-        ("x-max-of-the-next-point", "sd2_max of the next point is used",
+        ("no-speed-limit", "your code does not use "
+                           "sd2_max", lambda x: np.full_like(x, 1e3)),
+        ("x-max-of-the-next-point", "your code uses sd2_max of the next point",
          lambda x: np.append(x[1:], x[-1])),
-        ("x-max-of-the-point-before", "sd2_max of the previous point is used",
+        ("x-max-of-the-point-before", "your code uses sd2_max of the previous point",
          lambda x: np.append(x[0], x[:-1])),
-        ("least-x-max", "every point uses the smallest sd2_max",
+        ("least-x-max", "every point in your code uses the smallest sd2_max",
          lambda x: np.full_like(x, x.min())),
-        ("x-max-of-the-first-point", "every point uses sd2_max of the first point",
+        ("x-max-of-the-first-point", "every point in your code uses sd2_max of the "
+                                     "first point",
          lambda x: np.full_like(x, x[0])),
-        ("x-max-squared", "sd2_max is squared, but it is already a square",
+        ("x-max-squared", "your code squares sd2_max, but it is already a square",
          lambda x: x**2),
-        ("x-max-rooted", "the square root of sd2_max is taken; compare sd^2 with "
-                         "sd2_max itself", np.sqrt))),
+        ("x-max-rooted", "your code takes the square root of sd2_max. Compare sd^2 "
+                         "with sd2_max itself", np.sqrt))),
     *(Option(slug, says, {"stands": of}) for slug, says, of in (
         ("cannot-stand-goes", "your code returns a motion although gravity alone "
-         "exceeds a torque limit; the arm cannot hold there, so return zeros",
+                              "exceeds a torque limit. The arm cannot hold there, so "
+                              "return zeros",
          lambda G, limits: False),
-        ("all-points-too-heavy", "your code returns zeros only if gravity exceeds a"
-                                 " torque limit at every point; one point is enough",
+        ("all-points-too-heavy", "your code returns zeros only if gravity exceeds a "
+                                 "torque limit at every point, but one point is enough",
          lambda G, limits: np.all(np.abs(G) > limits)),
         ("first-point-alone", "your code compares gravity with the torque limits "
                               "only at the first point",
@@ -242,34 +252,38 @@ OPTIONS = [
                        "the two ends",
          lambda G, limits: np.any(np.abs(G[[0, -1]]) > limits)),
         ("gravity-with-sign", "your code compares gravity with the torque limits "
-                              "without its absolute value; negative torques are "
-                              "limited too", lambda G, limits: np.any(limits < G)))),
-    *(Option(f"without-{what}", f"the backward pass does not test whether {says}",
+                              "without its absolute value, but the limits also apply "
+                              "to negative torques",
+         lambda G, limits: np.any(limits < G)))),
+    *(Option(f"without-{what}", f"your backward pass does not test whether {says}",
              {"without": (what,)}, alone=True) for what, says in (
         ("allowed", "any sdd is allowed at this speed (low <= high)"),
         ("after", "the motion can slow down to the maximum of the next point"),
         ("turning", "sd^2 stays above 0 with the largest sdd"))),
-    Option("most-of-the-point-before", "in the forward pass sd^2 at i + 1 is limited "
-        "by the maximum at i. Use the maximum at i + 1", {"kept": 0}),
+    Option("most-of-the-point-before", "in the forward pass, your code limits sd^2 at "
+                                       "i + 1 by the maximum at i. Use the maximum at "
+                                       "i + 1", {"kept": 0}),
     *(Option(slug, f"your code uses the {word} torque limit for every joint",
              {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
         ("smallest-limit", "smallest", np.min), ("largest-limit", "largest", np.max),
         ("first-limit", "first joint's", lambda x: x[0]))),
-    Option("half-the-torque", "your code uses only half of each torque limit",
+    Option("half-the-torque", "your code uses only half of each torque limit. Use the "
+                              "whole limit",
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a, b, g, limits / 2, sd)}),
-    Option("first-joint-only", "your code uses only the first joint",
+    Option("first-joint-only", "your code uses only the first joint, but every joint "
+                               "limits sdd",
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a[:1], b[:1], g[:1], limits[:1], sd)}),
     *(Option(slug, says, {"out": of}) for slug, says, of in (
         ("root", "your code returns sd. Return sd^2", np.sqrt),
-        ("squared", "your code returns sd^4; return sd^2", np.square),
-        ("end-to-start", "the motion runs from the end to the start",
+        ("squared", "your code returns sd^4. Return sd^2", np.square),
+        ("end-to-start", "your motion runs from the end to the start",
          lambda x: x[::-1]),
-        ("stopped-at-the-end", "the last entry is set to 0 at the end",
+        ("stopped-at-the-end", "your code sets the last entry to 0 at the end",
          lambda x: np.append(x[:-1], 0.0)),
-        ("mirrored", "your code takes the minimum of the motion and its mirror "
-                     "image; the limits are different in the other direction",
+        ("mirrored", "your code takes the minimum of the motion and its mirror image, "
+                     "but the limits are different in the other direction",
          lambda x: np.minimum(x, x[::-1])))),
 ]  # fmt: skip
 
@@ -329,8 +343,8 @@ def _slow(asked: Sequence[Asked]) -> str:
             i = int(np.argmax(right - mine))
             if right[i] > mine[i] + NEAR:
                 return (
-                    f"In call {k} of {len(asked)} your motion is within all limits "
-                    f"but slower than possible: at point {i} sd^2 is {mine[i]:.3f}, "
-                    f"and {right[i]:.3f} is possible."
+                    f"In call {k} of {len(asked)} your motion is within all limits but "
+                    f"slower than possible. At point {i} sd^2 is {mine[i]:.3f}, but "
+                    f"{right[i]:.3f} is possible."
                 )
     return ""

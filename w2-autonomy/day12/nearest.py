@@ -108,12 +108,15 @@ def _others(tree, q, far):
 @row.wrongs(hidden={"itself-left-out": "the lab asks for no node's own place"})
 def _(tree, q):
     """farthest: your code returns the farthest node. Return the nearest
-    newest: your code always returns the last node of the tree
-    one-coordinate: your code compares only the first coordinate
-    one-coordinate 2: your code compares only the last coordinate
-    signed-sum: the differences are added with their signs, so they cancel. Add their
-      squares
-    signed-sum 2: the differences are added before they are squared, so they cancel.
+    newest: your code always returns the last node of the tree. Return the node nearest
+      to q
+    one-coordinate: your code compares only the first coordinate. Use the distance in
+      all coordinates
+    one-coordinate 2: your code compares only the last coordinate. Use the distance in
+      all coordinates
+    signed-sum: your code adds the differences with their signs, so they cancel. Add
+      their squares
+    signed-sum 2: your code adds the differences before it squares them, so they cancel.
       Square them first
     last-of-equals: if several nodes are equally near, your code returns the last.
       Return the first, as argmin does
@@ -121,52 +124,52 @@ def _(tree, q):
       the Euclidean distance
     sum-of-sizes: your code compares the sum of the absolute differences. Use the
       Euclidean distance
-    wrapped: your code wraps the differences to +-pi; the joints have limits, so q and q
-      + 2 pi are different configurations => the formula with differences within +-pi
-    wrapped 2: your code takes the differences modulo 2 pi; the joints have limits, so q
-      and q + 2 pi are different configurations => the formula with differences modulo 2
-      pi
-    weighted: the coordinates have different weights. Use the same weight for all => the
-      formula with weights from 1 down to 1/2
-    weighted 2: the coordinates have different weights. Use the same weight for all =>
-      the formula with weights 1, 1/2, 1/3 and so on
+    wrapped: your code wraps the differences to [-pi, pi], but the joints have limits,
+      so q and q + 2 pi are different configurations
+    wrapped 2: your code takes the differences modulo 2 pi, but the joints have limits,
+      so q and q + 2 pi are different configurations
+    weighted: your coordinates have different weights. Use the same weight for all
+    weighted 2: your coordinates have different weights. Use the same weight for all
     from-the-origin: your code does not use q, so it returns the node nearest to the
       origin
-    q-added: q is added to the nodes. Subtract it
-    most-alike: your code compares the dot products with q; they also grow with the norm
-      of a node
+    q-added: your code adds q to the nodes. Subtract it
+    most-alike: your code compares the dot products with q, but they also grow with the
+      norm of a node
     place-of-the-distance: your code returns the rank of the first node. Return the
-      index of the smallest distance => the first entry of argsort(argsort(distance))
-    counted-from-the-end: the index counts from the end of the tree. Count from the root
+      index of the smallest distance
+    counted-from-the-end: your index counts from the end of the tree. Count from the
+      root
     smallest-coordinate: your code compares the smallest difference in one coordinate.
       Use the Euclidean distance
-    two-coordinates: your code compares only the first two coordinates; a node can have
-      any number of them
-    first-left-out: your code does not compare the first coordinate
-    cubed: the differences are cubed, so they keep their signs and cancel. Square them
+    two-coordinates: your code compares only the first two coordinates, but a node can
+      have any number of them
+    first-left-out: your code does not compare the first coordinate. Use the distance in
+      all coordinates
+    cubed: your code cubes the differences, so they keep their signs and cancel. Square
+      them
     length-for-place: your code compares the norms of the nodes with the norm of q. Two
       points with the same norm can be far apart
     angle: your code selects the node at the smallest angle to q. Use the distance
-    second-nearest: your code returns the second nearest node
-    least-not-kept: each row is compared with the distance of the root. Compare it with
+    second-nearest: your code returns the second nearest node. Return the nearest
+    least-not-kept: your code compares each row with the distance of the root. Compare
+      it with the smallest distance so far
+    row-before: your code compares each row only with the previous row. Compare it with
       the smallest distance so far
-    row-before: each row is compared only with the previous row. Compare it with the
-      smallest distance so far
-    first-that-is-nearer: the loop stops at the first row that is nearer than the root.
+    first-that-is-nearer: your loop stops at the first row that is nearer than the root.
       Test all rows
-    rounded: the distances are rounded before they are compared => the formula with 2
-      decimals
-    rounded 2: the distances are rounded before they are compared => the formula with 3
-      decimals
-    root-left-out: your code skips the root, row 0
+    rounded: your code rounds the distances before it compares them, so two different
+      distances can be equal
+    rounded 2: your code rounds the distances before it compares them, so two different
+      distances can be equal
+    root-left-out: your code skips the root, row 0, but the root can be the nearest node
     root-left-out 2: your code skips the root, row 0, and counts the rows from row 1
-    last-left-out: your code skips the last row
-    over-all-numbers: your code searches the minimum over all entries of the tree; each
-      row has one distance, so sum along axis 1 => argmin without an axis
-    sum-of-columns: the squares are summed along axis 0. Sum along axis 1, because each
-      row is a node
-    itself-left-out: your code skips a node that equals q; its distance is 0, so it is
-      the nearest
+    last-left-out: your code skips the last row, but the last node can be the nearest
+    over-all-numbers: your code searches the minimum over all entries of the tree. Each
+      row has one distance, so sum along axis 1
+    sum-of-columns: your code sums the squares along axis 0. Sum along axis 1, because
+      each row is a node
+    itself-left-out: your code skips a node that equals q, but its distance is 0, so it
+      is the nearest
     largest-with-sign: your code compares the largest signed difference. Use the
       Euclidean distance
     """

@@ -13,6 +13,8 @@ import numpy as np
 from labkit.judge import Case, Finding
 from labkit.judge.answers import capitalised
 from labkit.judge.ask import as_plain
+from labkit.judge.hypothesis import evidence
+from labkit.judge.mistake import BOTH, both_told
 from robo47.checks import Array
 
 from .ways import without_filling
@@ -98,15 +100,15 @@ def together(
         says = "; or ".join(one.says for one in some)
         either = "either " if len(some) > 1 else ""
         this = "either" if len(some) > 1 else "this"
-        how = f"The reference solution with {this} mistake gives the same output."
+        how = f"The reference solution with {this} mistake "
+        how += "gives the same output as your code."
         text = f"{either}{says}. {how}"
         return Finding(some[0].slug, capitalised(text))
     for pair in _pairs(options):
         if gives(*pair):
-            says = "; ".join(one.says for one in pair)
-            how = "The reference solution with both mistakes gives the same output."
+            how = f"{capitalised(BOTH)} {evidence(True)}."
             slug = "+".join(one.slug for one in pair)
-            return Finding(slug, f"Two things at once: {says}. {how}")
+            return Finding(slug, f"{both_told(*(one.says for one in pair))} {how}")
     return None
 
 

@@ -169,33 +169,33 @@ def _of_holding(rest, pull, c, limits, moves, free):
 
 @row.wrongs
 def _(a, b, c, limits, sd):
-    """not-sorted: if a is negative, the lower and the upper bound of that joint are
-      swapped. Sort the two quotients
-    speed-forgotten: the term b sd^2 is missing
-    speed-sign: b sd^2 is added to the limits. Subtract it
-    gravity-forgotten: the term c is missing
-    gravity-sign: c is added to the limits. Subtract it
-    rest-added: b sd^2 + c is added to the limits. Subtract it
-    rest-not-divided: b sd^2 + c is not divided by a
-    one-sided: b sd^2 + c has the wrong sign in the lower bound; the bounds are not
-      symmetric about 0
+    """not-sorted: if a is negative, your code swaps the lower and the upper bound of
+      that joint. Sort the two quotients
+    speed-forgotten: your code omits the term b sd^2
+    speed-sign: your code adds b sd^2 to the limits. Subtract it
+    gravity-forgotten: your code omits the term c
+    gravity-sign: your code adds c to the limits. Subtract it
+    rest-added: your code adds b sd^2 + c to the limits. Subtract it
+    rest-not-divided: your code does not divide b sd^2 + c by a
+    one-sided: your b sd^2 + c has the wrong sign in the lower bound, but the bounds are
+      not symmetric about 0
     size-of-rest: your code reduces both limits by |b sd^2 + c|. This torque should
       reduce one limit and extend the other
     widest: your code takes the union of the joints' intervals. Take the intersection
-    least-of-both: both bounds are the minimum of their quotients; the lower bound is
-      the maximum of the joints' lower bounds
-    first-joint-only: your code uses only the first joint
-    first-joint-only 2: your code uses only the first joint that moves; every joint
+    least-of-both: both of your bounds are the minimum of their quotients. The lower
+      bound should be the maximum of the joints' lower bounds
+    first-joint-only: your code uses only the first joint, but every joint limits sdd
+    first-joint-only 2: your code uses only the first joint that moves, but every joint
       limits sdd
-    last-joint-only: your code uses only the last joint: does your loop overwrite the
+    last-joint-only: your code uses only the last joint. Does your loop overwrite the
       earlier bounds?
-    half-the-limit: your code uses only half of each torque limit
-    not-divided: the bounds are torques. Divide them by a
-    times-a: the torques are multiplied by a. Divide by a
-    one-limit: your code allows torques from 0 to the limit; the torques may range from
-      -limit to limit
-    greatest-first: the upper bound comes first. Return the lower bound first
-    greatest-first 2: the upper bound comes first unless a joint with a = 0 exceeds its
+    half-the-limit: your code uses only half of each torque limit. Use the whole limit
+    not-divided: your bounds are torques. Divide them by a
+    times-a: your code multiplies the torques by a. Divide by a
+    one-limit: your code allows torques from 0 to the limit, but the torques may range
+      from -limit to limit
+    greatest-first: your upper bound comes first. Return the lower bound first
+    greatest-first 2: your upper bound comes first unless a joint with a = 0 exceeds its
       limit. Return the lower bound first
     none-sorted: if no sdd is allowed, your code sorts the bounds. Leave the lower bound
       above the upper bound
@@ -209,32 +209,34 @@ def _(a, b, c, limits, sd):
     zero-stops-all: a joint with a = 0 within its torque limit makes the range empty in
       your code. Such a joint does not limit sdd
     zero-row-ignored: your code ignores a joint with a = 0 that exceeds its torque
-      limit; no sdd is allowed then: (inf, -inf)
-    gravity-not-divided: c is subtracted after the division by a; c is a torque, so
-      subtract it first
-    speed-not-divided: b sd^2 is subtracted after the division by a; b sd^2 is a torque,
+      limit. In this case no sdd is allowed, so return (inf, -inf)
+    gravity-not-divided: your code subtracts c after the division by a. It is a torque,
       so subtract it first
-    negative-left-out: your code ignores joints with negative a; every joint that moves
-      limits sdd
-    largest-limit: your code uses the largest torque limit for every joint
-    smallest-limit: your code uses the smallest torque limit for every joint
-    last-joint-greatest: the upper bound is the upper bound of the last joint. Take the
+    speed-not-divided: your code subtracts b sd^2 after the division by a. It is a
+      torque, so subtract it first
+    negative-left-out: your code ignores joints with negative a, but every joint that
+      moves limits sdd
+    largest-limit: your code uses the largest torque limit for every joint. Each joint
+      has its own limit
+    smallest-limit: your code uses the smallest torque limit for every joint. Each joint
+      has its own limit
+    last-joint-greatest: your upper bound is the upper bound of the last joint. Take the
       minimum over all joints
-    last-joint-least: the lower bound is the lower bound of the last joint. Take the
+    last-joint-least: your lower bound is the lower bound of the last joint. Take the
       maximum over all joints
-    mean-of-joints: the bounds are means over the joints. Take the maximum of the lower
+    mean-of-joints: your bounds are means over the joints. Take the maximum of the lower
       bounds and the minimum of the upper bounds
-    sum-of-joints: the bounds are sums over the joints. Take the maximum of the lower
+    sum-of-joints: your bounds are sums over the joints. Take the maximum of the lower
       bounds and the minimum of the upper bounds
-    from-zero: both bounds start at 0. Start the lower bound at -inf and the upper bound
-      at inf
-    last-joint-only 2: each joint replaces the bounds of the joints before it; keep the
-      largest lower and the smallest upper bound => the bounds of the last joint
-    never-narrowed: the bounds stay infinite, because min and max are swapped; keep the
-      largest lower and the smallest upper bound => (-inf, inf)
-    zero-kept-in: the range always includes 0; sdd = 0 need not be allowed
-    six-joints: your code uses only the first six joints; the arm can have any number of
-      joints
+    from-zero: both of your bounds start at 0. Start the lower bound at -inf and the
+      upper bound at inf
+    last-joint-only 2: each joint in your code replaces the bounds of the joints before
+      it. Keep the largest lower and the smallest upper bound
+    never-narrowed: your bounds stay infinite, because min and max are swapped. Keep the
+      largest lower and the smallest upper bound
+    zero-kept-in: your range always includes 0, but sdd = 0 need not be allowed
+    six-joints: your code uses only the first six joints, but the arm can have any
+      number of joints
     first-left-out: your code skips the first joint
     none-is-zero 3: if the joints allow no common sdd, your code returns (0, 0), which
       allows sdd = 0. Leave the lower bound above the upper bound
@@ -242,7 +244,7 @@ def _(a, b, c, limits, sd):
       Return the bounds themselves, because (inf, -inf) is reserved for a joint with a =
       0
     no-mover-is-none: if every a is 0 and every torque is within its limit, your code
-      returns (inf, -inf); any sdd is allowed: (-inf, inf)
+      returns (inf, -inf). Any sdd is allowed, so return (-inf, inf)
     held-by-gravity-alone: for a joint with a = 0 your code compares only c with the
       limit. Compare b sd^2 + c
     held-by-speed-alone: for a joint with a = 0 your code compares only b sd^2 with the
@@ -253,14 +255,14 @@ def _(a, b, c, limits, sd):
       too. This test is only for joints with a = 0
     any-that-holds: if several joints have a = 0, your code accepts the speed if one of
       them is within its limit. All of them must be within their limits
-    small-is-zero: your code treats a small a as 0; a joint with a small a still limits
-      sdd => the formula with |a| below 0.01
-    small-is-zero 2: your code treats a small a as 0; a joint with a small a still
-      limits sdd => the formula with |a| below 0.001
-    small-is-zero 3: your code treats a small a as 0; a joint with a small a still
-      limits sdd => the formula with |a| below 1e-5
+    small-is-zero: your code treats a small a as 0, but a joint with a small a still
+      limits sdd
+    small-is-zero 2: your code treats a small a as 0, but a joint with a small a still
+      limits sdd
+    small-is-zero 3: your code treats a small a as 0, but a joint with a small a still
+      limits sdd
     held-below-its-limit: your code rejects a joint with a = 0 whose torque equals its
-      limit; equality is allowed
+      limit, but equality is allowed
     """
     pull = b * sd**2
     rest = pull + c
@@ -351,7 +353,7 @@ def _(a, b, c, limits, sd):
 @row.wrong
 def zero_divides(a, b, c, limits, sd):
     """your code divides by 0 for a joint with a = 0. Such a joint does not limit sdd
-    while its torque is within the limit => the formula without that case"""
+    while its torque is within the limit"""
     with np.errstate(all="ignore"):
         ends = np.sort((np.array([-limits, limits]) - b * sd**2 - c) / a, axis=0)
     return np.array([ends[0].max(), ends[1].min()])

@@ -49,43 +49,45 @@ def _(rng):
 
 @row.wrongs
 def _(M, dq_ds, d2q_ds2, coriolis, gravity):
-    """ddq-forgotten: M d2q_ds2 is missing in b; on a curved path the joints accelerate
-      even if sd is constant
-    bias-for-coriolis: gravity is also added to b; gravity does not depend on sd, so it
-      belongs only to g
-    gravity-off-coriolis: gravity is subtracted in b; `coriolis` does not contain
-      gravity
-    m-forgotten: the mass matrix is missing in a => dq_ds
-    m-forgotten 2: the mass matrix is missing in b => d2q_ds2 + the Coriolis torque
-    m-forgotten 3: the mass matrix is missing in a and in b
-    diagonal-only: only the diagonal of the mass matrix is used; the joints are coupled
-    diagonal-only 2: only the diagonal of the mass matrix is used in a; the joints are
-      coupled
-    diagonal-only 3: only the diagonal of the mass matrix is used in b; the joints are
-      coupled
-    a-and-b-exchanged: `a` and `b` are swapped; sdd is multiplied by dq_ds and sd^2 by
-      d2q_ds2
-    g-first: g is the first row; the order is a, b, g
-    ddq-in-a: M dq_ds and M d2q_ds2 are swapped; qdd = dq_ds sdd + d2q_ds2 sd^2
-    m-dq-twice: b contains M dq_ds. It should contain M d2q_ds2
-    both-in-a: M d2q_ds2 is added to a, but it is the coefficient of sd^2 and belongs to
-      b
-    gravity-sign: the sign of gravity is reversed; the torque that holds the arm is
-      +gravity
-    gravity-forgotten: gravity is missing, so the third row is 0
-    coriolis-times-dq: the Coriolis torque is multiplied by dq_ds, but it is already
-      computed for qd = dq_ds
-    dq-squared: b contains dq_ds^2 instead of d2q_ds2
+    """ddq-forgotten: your code omits M d2q_ds2 in b, but on a curved path the joints
+      accelerate even if sd is constant
+    bias-for-coriolis: your code also adds gravity to b, but gravity does not depend on
+      sd, so it belongs only to g
+    gravity-off-coriolis: your code subtracts gravity in b, but `coriolis` does not
+      contain gravity
+    m-forgotten: your code omits the mass matrix in a
+    m-forgotten 2: your code omits the mass matrix in b
+    m-forgotten 3: your code omits the mass matrix in a and in b
+    diagonal-only: your code uses only the diagonal of the mass matrix, but the joints
+      are coupled
+    diagonal-only 2: your code uses only the diagonal of the mass matrix in a, but the
+      joints are coupled
+    diagonal-only 3: your code uses only the diagonal of the mass matrix in b, but the
+      joints are coupled
+    a-and-b-exchanged: your `a` and `b` are swapped. sdd is multiplied by dq_ds, and
+      sd^2 by d2q_ds2
+    g-first: your first row is g. The order should be a, b, g
+    ddq-in-a: your code swaps M dq_ds and M d2q_ds2, but qdd is dq_ds sdd + d2q_ds2 sd^2
+    m-dq-twice: your b contains M dq_ds. It should contain M d2q_ds2
+    both-in-a: your code adds M d2q_ds2 to a, but it is the coefficient of sd^2 and
+      belongs to b
+    gravity-sign: your code reverses the sign of gravity, but the torque that holds the
+      arm is +gravity
+    gravity-forgotten: your code omits gravity, so the third row is 0
+    coriolis-times-dq: your code multiplies the Coriolis torque by dq_ds, but `coriolis`
+      already computes it for qd = dq_ds
+    dq-squared: your b contains dq_ds^2. It should contain d2q_ds2
     solved: your code solves with M. Multiply by M, because M maps accelerations to
       torques
-    coriolis-in-g: the Coriolis torque is added to g; this torque is multiplied by sd^2,
-      so it belongs to b
-    coriolis-in-a: the Coriolis torque is added to a; this torque is multiplied by sd^2,
-      so it belongs to b
-    rows-summed: each row of M is summed and then multiplied by one joint's rate. Use
-      the matrix product
-    trace: the trace of M is used instead of M
-    first-row: the first row of M is multiplied entry by entry. Use the matrix product
+    coriolis-in-g: your code adds the Coriolis torque to g, but this torque is
+      multiplied by sd^2, so it belongs to b
+    coriolis-in-a: your code adds the Coriolis torque to a, but this torque is
+      multiplied by sd^2, so it belongs to b
+    rows-summed: your code sums each row of M and then multiplies it by one joint's
+      rate. Use the matrix product
+    trace: your code uses the trace of M instead of M
+    first-row: your code multiplies the first row of M entry by entry. Use the matrix
+      product
     """
     right = path_dynamics(M, dq_ds, d2q_ds2, coriolis, gravity)
     a, b, g = right

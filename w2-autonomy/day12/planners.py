@@ -162,126 +162,132 @@ def one_tree(
 
 
 OPTIONS = [
-    Option("swap-when-it-grew", "the trees are swapped only after a sample that "
-                                "made one grow; swap them after every sample",
+    Option("swap-when-it-grew", "your code swaps the trees only after a sample that "
+                                "made one grow. Swap them after every sample",
            {"turn": "grew"}),
-    Option("swap-when-it-failed", "the trees are swapped only after a blocked "
-                                  "sample; swap them after every sample",
+    Option("swap-when-it-failed", "your code swaps the trees only after a blocked "
+                                  "sample. Swap them after every sample",
            {"turn": "failed"}),
-    Option("trees-not-swapped", "all samples extend the start's tree. Samples 1, 3,"
-                                " 5 should extend the goal's tree", {"turn": "never"}),
-    Option("goal-first", "sample 0 extends the goal's tree. It should extend the "
-                         "start's tree", {"turn": "goal"}),
-    Option("halves", "the first half of the samples extends the start's tree, and "
-                     "the second half the goal's tree; alternate",
+    Option("trees-not-swapped", "in your code, all samples extend the start's tree. "
+                                "Samples 1, 3, 5 and so on should extend the goal's "
+                                "tree", {"turn": "never"}),
+    Option("goal-first", "in your code, sample 0 extends the goal's tree. It should "
+                         "extend the start's tree", {"turn": "goal"}),
+    Option("halves", "in your code, the first half of the samples extends the start's "
+                     "tree, and the second half extends the goal's tree. Alternate "
+                     "between the trees",
            {"turn": lambda k, used, nodes: int(2 * k >= len(used))}),
-    Option("two-in-turn", "samples 0 and 1 extend the start's tree, and samples 2 "
-                          "and 3 the goal's tree; alternate after every sample",
+    Option("two-in-turn", "in your code, samples 0 and 1 extend the start's tree, and "
+                          "samples 2 and 3 extend the goal's tree. Alternate after "
+                          "every sample",
            {"turn": lambda k, used, nodes: k // 2 % 2}),
-    Option("one-of-three", "only every third sample extends the goal's tree; "
-                           "alternate after every sample",
+    Option("one-of-three", "in your code, only every third sample extends the goal's "
+                           "tree. Alternate after every sample",
            {"turn": lambda k, used, nodes: int(k % 3 == 2)}),
-    Option("smaller-tree", "each sample extends the smaller tree; alternate after "
-                           "every sample",
+    Option("smaller-tree", "in your code, each sample extends the smaller tree. "
+                           "Alternate after every sample",
            {"turn": lambda k, used, nodes: int(len(nodes[1]) < len(nodes[0]))}),
-    Option("blocked-tries-the-other", "after a blocked sample the other tree grows "
-                                      "towards it; continue with the next sample",
+    Option("blocked-tries-the-other", "in your code, the other tree grows towards a "
+                                      "blocked sample. Continue with the next sample",
            {"blocked": "other"}),
     *(Option("few-samples", f"your code uses only the first {n} samples",
              {"used": lambda some, n=n: some[:n]}) for n in (5, 10, 20)),
-    Option("connect-one-step", "the other tree adds one edge only. Add edges until "
+    Option("connect-one-step", "your other tree adds only one edge. Add edges until "
                                "one is blocked or the new node is reached",
            {"approach": "one"}),
-    Option("connect-to-the-sample", "the other tree grows towards the sample. It "
+    Option("connect-to-the-sample", "your other tree grows towards the sample. It "
                                     "should grow towards the new node",
            {"approach": "sample"}),
-    Option("joined-at-the-sample", "the search ends when the other tree reaches the"
-                                   " sample; the first tree ends at its new node, "
+    Option("joined-at-the-sample", "your search ends when the other tree reaches the "
+                                   "sample, but the first tree ends at its new node, "
                                    "which can be elsewhere",
            {"approach": "sample", "meets": "sample"}),
-    Option("connect-to-the-root", "the other tree grows towards the root of the "
-                                  "first tree; it should grow towards the new node",
+    Option("connect-to-the-root", "your other tree grows towards the root of the first "
+                                  "tree. It should grow towards the new node",
            {"approach": "root"}),
-    Option("connect-in-one-jump", "the other tree is connected by a single edge of "
-                                  "any length. Add edges of one step each",
+    Option("connect-in-one-jump", "your code connects the other tree by a single edge "
+                                  "of any length. Add edges of one step each",
            {"approach": "jump"}),
-    *(Option("connect-few-edges", f"the other tree adds at most {n} edges; add edges"
-                                  " until one is blocked or the new node is reached",
+    *(Option("connect-few-edges", f"your other tree adds at most {n} edges. Add edges "
+                                  f"until one is blocked or the new node is reached",
            {"tries": n})
       for n in (2, 3, 4, 5, 10)),
     Option("greedy-samples", "your code adds several edges towards the sample. Add "
                              "one edge only",
            {"mine": "connect"}),
-    Option("parent-is-the-newest", "the parent of a node is the previous node; use "
+    Option("parent-is-the-newest", "your parent of a node is the previous node. Use "
                                    "the index that `extend` returns",
            {"parent": "newest"}),
-    Option("parent-is-the-root", "the parent of every node is the root; use the "
-                                 "index that `extend` returns", {"parent": "root"}),
-    Option("grows-from-the-newest", "a tree grows only from its newest node; pass "
-                                    "all nodes to `extend`, which finds the nearest",
+    Option("parent-is-the-root", "your parent of every node is the root. Use the index "
+                                 "that `extend` returns", {"parent": "root"}),
+    Option("grows-from-the-newest", "in your code, a tree grows only from its newest "
+                                    "node. Pass all nodes to `extend`, which finds the "
+                                    "nearest",
            {"grows": "newest"}),
-    Option("not-checked", "nodes are added even if their edge is not free",
+    Option("not-checked", "your code adds nodes even if their edge is not free",
            {"free": True}),
-    Option("blocked-goes-on", "after a blocked sample the other tree still grows "
-                              "towards the newest node; continue with the next "
-                              "sample",
+    Option("blocked-goes-on", "in your code, the other tree still grows towards the "
+                              "newest node after a blocked sample. Continue with the "
+                              "next sample",
            {"blocked": "on"}),
-    Option("blocked-ends", "your code stops at the first blocked sample; continue "
-                           "with the next sample", {"blocked": "stop"}),
-    Option("near-enough", "the search ends when the trees are within one step of "
-                          "each other; the other tree must reach the new node",
+    Option("blocked-ends", "your code stops at the first blocked sample. Continue with "
+                           "the next sample", {"blocked": "stop"}),
+    Option("near-enough", "your search ends when the trees are within one step of each "
+                          "other, but the other tree must reach the new node",
            {"meets": "near"}),
-    *(Option("stride", f"the edges have a length of {x:g} steps",
+    *(Option("stride", f"your edges have a length of {x:g} steps",
            {"stride": x, "far": x})
       for x in (0.5, 2.0)),
-    *(Option("stride-of-the-other", "the edges of the other tree have a length of "
+    *(Option("stride-of-the-other", f"your edges of the other tree have a length of "
                                     f"{x:g} steps",
              {"far": x}) for x in (0.5, 2.0)),
-    *(Option("stride-of-the-first", "the edges towards samples have a length of "
+    *(Option("stride-of-the-first", f"your edges towards samples have a length of "
                                     f"{x:g} steps",
              {"stride": x}) for x in (0.5, 2.0)),
     Option("every-other-sample", "your code uses only every second sample",
            {"used": lambda some: some[::2]}),
-    Option("sample-twice", "each sample extends both trees; it should extend one",
+    Option("sample-twice", "in your code, each sample extends both trees. It should "
+                           "extend one tree",
            {"used": lambda some: np.repeat(some, 2, axis=0)}),
-    Option("samples-backwards", "the samples are used in reverse order",
+    Option("samples-backwards", "your code uses the samples in reverse order",
            {"used": lambda some: some[::-1]}),
     Option("first-sample-left-out", "your code skips the first sample",
            {"used": lambda some: some[1:]}),
     Option("last-sample-left-out", "your code skips the last sample",
            {"used": lambda some: some[:-1]}),
-    Option("not-turned-round", "the start's branch runs from the newest node to the"
-                               " root. Reverse it",
+    Option("not-turned-round", "the start's branch of your path runs from the newest "
+                               "node to the root. Reverse it",
            {"joined": lambda a, b: a + b[1:]}),
-    Option("goal-branch-turned", "the goal's branch is reversed; it already runs "
-                                 "from the meeting point to the goal",
+    Option("goal-branch-turned", "your code reverses the goal's branch, but it already "
+                                 "runs from the meeting point to the goal",
            {"joined": lambda a, b: a[::-1] + b[::-1]}),
-    Option("goal-branch-turned", "the goal's branch is reversed, without its first "
-                                 "node; it already runs from the meeting point to "
-                                 "the goal",
+    Option("goal-branch-turned", "your code reverses the goal's branch and omits its "
+                                 "first node, but the branch already runs from the "
+                                 "meeting point to the goal",
            {"joined": lambda a, b: a[::-1] + b[::-1][1:]}),
-    Option("goal-to-start", "the path runs from the goal to the start",
+    Option("goal-to-start", "your path runs from the goal to the start. Reverse it",
            {"joined": lambda a, b: b[::-1] + a[1:]}),
-    Option("goal-to-start-on-its-turn", "if a sample of the goal's tree completes "
-                                        "the path, the path runs from the goal to "
-                                        "the start", {"first": "turn"}),
-    Option("meeting-point-twice", "the path contains the node where the trees meet "
-                                  "twice",
+    Option("goal-to-start-on-its-turn", "if a sample of the goal's tree completes the "
+                                        "path, your path runs from the goal to the "
+                                        "start. Reverse it", {"first": "turn"}),
+    Option("meeting-point-twice", "your path contains the node where the trees meet "
+                                  "twice. Include it once",
            {"joined": lambda a, b: a[::-1] + b}),
-    Option("meeting-point-lost", "the path does not contain the node where the "
-                                 "trees meet",
+    Option("meeting-point-lost", "your path does not contain the node where the trees "
+                                 "meet. Include it once",
            {"joined": lambda a, b: [*a[:0:-1], *b[1:]]}),
-    Option("root-lost", "the path does not contain the start",
+    Option("root-lost", "your path does not contain the start. It should begin at the "
+                        "start",
            {"joined": lambda a, b: a[::-1][1:] + b[1:]}),
-    Option("both-roots-lost", "the path contains neither the start nor the goal",
+    Option("both-roots-lost", "your path contains neither the start nor the goal",
            {"joined": lambda a, b: a[::-1][1:] + b[1:-1]}),
-    Option("goal-lost", "the path does not contain the goal",
+    Option("goal-lost", "your path does not contain the goal. It should end there",
            {"joined": lambda a, b: a[::-1] + b[1:-1]}),
-    Option("none-is-the-start", "if there is no path, your code returns the start; "
-                                "return an array without rows",
+    Option("none-is-the-start", "if there is no path, your code returns the start. "
+                                "Return an array without rows",
            {"none": lambda start, goal: np.array([start])}),
-    Option("none-is-straight", "if there is no path, your code returns the start "
-                               "and the goal; return an array without rows",
+    Option("none-is-straight", "if there is no path, your code returns the start and "
+                               "the goal. Return an array without rows",
            {"none": lambda start, goal: np.array([start, goal])}),
 ]  # fmt: skip
 
@@ -338,19 +344,23 @@ def of_a_planner(case: Case) -> Finding | None:
         where = f"in call {k + 1} of {len(S)}"
         if not len(way) and len(right):
             how = _joining(*arguments[k])
-            says = f"Your code finds no path {where}; with the specified planner {how}."
+            says = (
+                f"Your code finds no path {where}, but with the specified planner "
+                f"{how}."
+            )
             return Finding("no-way", says)
         if len(way) and (why := fault(way, start, goal, world, step)):
             return Finding("no-valid-way", f"Your path is not valid {where}: it {why}.")
         if len(twice := np.flatnonzero(_lengths(way) == 0.0)):
             says = (
-                f"Waypoints {twice[0]} and {twice[0] + 1} are the same point {where}; "
+                f"Your waypoints {twice[0]} and {twice[0] + 1} are the same point "
+                f"{where}. "
             )
-            return Finding("point-twice", says + "include it once.")
+            return Finding("point-twice", says + "Include it once.")
         if len(way) and not len(right):
-            says = f"Valid, by another planner: your function finds a path {where}"
-            why = "the specified planner finds none with these samples"
-            return Finding("another-planner", f"{says}, and {why}.")
+            says = f"Your function finds a path {where}, but the specified planner "
+            says += "finds none with these samples."
+            return Finding("another-planner", says)
     for k, (way, right) in enumerate(zip(S, T, strict=True)):
         n = min(len(way), len(right))
         off = np.abs(way[:n] - right[:n]).max(axis=1, initial=0.0) > CLEAR
@@ -358,9 +368,8 @@ def of_a_planner(case: Case) -> Finding | None:
             at = int(np.argmax(off)) if off.any() else n
             return Finding(
                 "another-planner",
-                f"Valid, by another planner: your paths are valid in all {len(S)} "
-                "calls, and they differ from the specified planner's. The first "
-                f"difference is in call {k + 1}, from waypoint {at} on, counted from "
+                "Your paths differ from the specified planner's. The first difference "
+                f"is in call {k + 1} of {len(S)}, from waypoint {at} on, counted from "
                 "0. Which tree does each sample grow, and towards which point does the "
                 "other tree grow?",
             )

@@ -97,7 +97,9 @@ def _(rng):
     yield *ends, NONE, np.array([[5e-4, 0.0]]), 1.0  # a sample that is nearly there
 
 
-@row.valid("Your paths are valid, by another planner.")
+@row.valid(
+    "Your paths are valid, but they come from another planner than the specified one."
+)
 def _(start, goal, world, samples, step, path):
     if not len(path):
         return None  # another planner may need other samples
@@ -107,44 +109,45 @@ def _(start, goal, world, samples, step, path):
 
 @row.wrongs
 def _(start, goal, world, samples, step):
-    """swap-when-it-grew: your code implements another planner. It swaps the trees only
-      after a sample that made a tree grow. Swap them after every sample
-    swap-when-it-failed: your code implements another planner. It swaps the trees only
-      after a blocked sample. Swap them after every sample
-    trees-not-swapped: your code implements another planner. All samples extend the
-      start's tree. Samples 1, 3, 5 should extend the goal's tree
-    goal-first: your code implements another planner. Sample 0 extends the goal's tree.
-      It should extend the start's tree
-    connect-one-step: your code implements another planner. The other tree adds one edge
-      only. Add edges until one is blocked or the new node is reached
-    connect-to-the-sample: your code implements another planner. The other tree grows
-      towards the sample. It should grow towards the new node
-    greedy-samples: your code implements another planner. It adds several edges towards
-      the sample. Add one edge only
-    one-tree: your code implements another planner. Only the start's tree grows, and
-      each new node is connected to the goal. Grow two trees
-    connect-in-one-jump: the other tree is connected by a single edge of any length. Add
-      edges of one step each
-    parent-is-the-newest: the path contains every node of both trees. The parent of a
-      node is the node from which it grew: use the index that `extend` returns
-    not-turned-round: the start's branch runs from the newest node to the root. Reverse
-      it
-    goal-to-start: the path runs from the goal to the start
+    """swap-when-it-grew: your code swaps the trees only after a sample that made a tree
+      grow. Swap them after every sample
+    swap-when-it-failed: your code swaps the trees only after a blocked sample. Swap
+      them after every sample
+    trees-not-swapped: your code extends the start's tree with every sample. Samples 1,
+      3, 5 and so on should extend the goal's tree
+    goal-first: your code extends the goal's tree with sample 0. Sample 0 should extend
+      the start's tree
+    connect-one-step: your code adds only one edge to the other tree. Add edges until
+      one is blocked or the new node is reached
+    connect-to-the-sample: your other tree grows towards the sample. It should grow
+      towards the new node
+    greedy-samples: your code adds several edges towards the sample. Add only one edge
+    one-tree: your code grows only the start's tree and connects each new node to the
+      goal. Grow two trees
+    connect-in-one-jump: your code connects the other tree by a single edge of any
+      length. Add edges of one step each
+    parent-is-the-newest: your path contains every node of both trees. The parent of a
+      node is the node from which it grew, so use the index that `extend` returns
+    not-turned-round: the start's branch of your path runs from the newest node to the
+      root. Reverse it
+    goal-to-start: your path runs from the goal to the start. Reverse it
     half-the-path: your code returns only the start's branch. Append the goal's branch
     half-the-path 2: your code returns only the goal's branch. Put the start's branch
       before it
-    not-checked: nodes are added even if their edge is not free. Use the third result of
-      `extend`
-    meeting-point-twice: the path contains the node where the trees meet twice
-    meeting-point-lost: the path does not contain the node where the trees meet
-    goal-lost: the path does not contain the goal
-    start-lost: the path does not contain the start
-    ends-only: the path contains only the start and the goal
+    not-checked: your code adds nodes even if their edge is not free. Use the third
+      result of `extend`
+    meeting-point-twice: your path contains the node where the trees meet twice. Include
+      it once
+    meeting-point-lost: your path does not contain the node where the trees meet.
+      Include it once
+    goal-lost: your path does not contain the goal. It should end at the goal
+    start-lost: your path does not contain the start. It should begin at the start
+    ends-only: your path contains only the start and the goal. Include the nodes of both
+      branches
     first-sample-left-out: your code skips the first sample
     last-sample-left-out: your code skips the last sample
-    straight-tried-first: your code implements another planner. It tests the edge from
-      the start to the goal before the first sample; without samples there should be no
-      path
+    straight-tried-first: your code tests the edge from the start to the goal before the
+      first sample. Without samples there should be no path
     """
     given = (start, goal, world, samples, step)
     right = rrt_connect(*given)

@@ -211,94 +211,93 @@ def _others(a, b, discs, part, away):
     }
 )
 def _(a, b, discs):
-    """line-for-segment: the parameter of the nearest point is not clamped to 0..1, so a
-      disc beyond an end of the edge blocks it
-    only-one-end-cut: the parameter is clamped at 1 but not at 0; before the start the
-      nearest point is the start
-    only-one-end-cut 2: the parameter is clamped at 0 but not at 1; beyond the end the
-      nearest point is the end
-    ends-only: your code tests only the two ends; the edge can cross a disc between them
+    """line-for-segment: your code does not clamp the parameter of the nearest point to
+      [0, 1], so a disc beyond an end of the edge blocks it
+    only-one-end-cut: your code clamps the parameter at 1 but not at 0. Before the
+      start, the nearest point should be the start
+    only-one-end-cut 2: your code clamps the parameter at 0 but not at 1. Beyond the
+      end, the nearest point should be the end
+    ends-only: your code tests only the two ends, but the edge can cross a disc between
+      them
     new-end-only: your code tests only the end b. Test the whole edge
     start-only: your code tests only the start a. Test the whole edge
     middle-only: your code tests only the midpoint. Test the whole edge
-    points-only: your code tests only some points of the edge; a small disc fits between
-      two of them => a test of ten points
-    points-only 2: your code tests only some points of the edge; a small disc fits
-      between two of them => a test of five points
-    points-only 3: your code tests only some points of the edge; a small disc fits
-      between two of them => a test of twenty points
-    points-only 4: your code tests only some points of the edge; a small disc fits
-      between two of them => a test of eleven points
+    points-only: your code tests only some points of the edge, but a small disc fits
+      between two of them
+    points-only 2: your code tests only some points of the edge, but a small disc fits
+      between two of them
+    points-only 3: your code tests only some points of the edge, but a small disc fits
+      between two of them
+    points-only 4: your code tests only some points of the edge, but a small disc fits
+      between two of them
     points-only 5: your code misses discs that cover only a little of the edge. It tests
-      only some points, or its nearest point is not exact => a test of a hundred and one
-      points
+      only some points, or its nearest point is not exact
     points-only 6: your code misses discs that cover only a little of the edge. It tests
-      only some points, or its nearest point is not exact => a test of two hundred
-      points
-    inside-is-free: an edge inside a disc does not cross its circle, so your code
-      reports it as free. The inside of a disc is blocked => a test for crossings of the
-      circle
-    inside-is-free 2: an edge or a point inside a disc does not cross its circle, so
-      your code reports it as free. The inside of a disc is blocked => a test for
-      crossings of the circle
+      only some points, or its nearest point is not exact
+    inside-is-free: your code reports an edge inside a disc as free, because it does not
+      cross the circle. The inside of a disc is blocked
+    inside-is-free 2: your code reports an edge or a point inside a disc as free,
+      because it does not cross the circle. The inside of a disc is blocked
     inner-only: your code skips a disc whose nearest point lies beyond an end of the
       edge. The end itself can lie in the disc
     inner-only 2: your code skips a disc whose nearest point lies beyond an end, unless
       the edge is a point. The end itself can lie in the disc
-    first-disc-only: your code tests only the first disc
-    last-disc-only: your code tests only the last disc; does a loop return too early or
+    first-disc-only: your code tests only the first disc. The edge must miss every disc
+    last-disc-only: your code tests only the last disc. Does a loop return too early or
       overwrite the result?
-    nearest-centre: your code tests only the disc with the nearest centre; a disc
+    nearest-centre: your code tests only the disc with the nearest centre, but a disc
       farther away can be larger
-    all-must-hit: your code reports a free edge as soon as it misses one disc; it must
-      miss every disc
+    all-must-hit: your code reports a free edge as soon as it misses one disc, but it
+      must miss every disc
     all-must-hit 2: your code reports a free edge as soon as it misses one disc, and
       never if there is no disc. The edge must miss every disc
-    squared-for-plain: the squared distance is compared with the radius
-    plain-for-squared: the distance is compared with the squared radius
-    diameter: the distance is compared with twice the radius; the third number of a disc
-      is its radius
-    half-the-radius: the distance is compared with half of the radius; the third number
-      of a disc is its radius
-    radius-forgotten: the radius is not used, so the discs are points
-    not-divided: the parameter of the nearest point is not divided by the squared length
-      of the edge
-    divided-by-the-length: the parameter of the nearest point is divided by the length
-      of the edge. Divide it by the squared length
-    touching-is-free: an edge that touches a disc is reported as free. It should be
-      blocked
-    from-the-origin: the nearest point is computed from the origin. Subtract a from the
-      centre first
-    other-way: the parameter runs from b to a, but it is applied from a
-    box: the discs are treated as squares, because each coordinate is compared
+    squared-for-plain: your code compares the squared distance with the radius. Compare
+      it with the squared radius
+    plain-for-squared: your code compares the distance with the squared radius. Compare
+      it with the radius
+    diameter: your code compares the distance with twice the radius, but the third
+      number of a disc is its radius
+    half-the-radius: your code compares the distance with half of the radius, but the
+      third number of a disc is its radius
+    radius-forgotten: your code does not use the radius, so the discs are points
+    not-divided: your code does not divide the parameter of the nearest point by the
+      squared length of the edge
+    divided-by-the-length: your code divides the parameter of the nearest point by the
+      length of the edge. Divide it by the squared length
+    touching-is-free: your code reports an edge that touches a disc as free. It should
+      be blocked
+    from-the-origin: your code computes the nearest point from the origin. Subtract a
+      from the centre first
+    other-way: your parameter runs from b to a, but your code applies it from a
+    box: your code treats the discs as squares, because it compares each coordinate
       separately. Use the Euclidean distance
-    foot-without-a: the nearest point is measured from the origin. Add a
-    cut-to-one: a length along the edge is clamped to 0..1. Clamp it to the length of
-      the edge
-    length-for-share: a length along the edge is multiplied by b - a. Multiply it by the
-      unit vector, or divide it by the length of the edge
-    distance-to-the-start: beyond the end b your code uses the distance to a; the
+    foot-without-a: your code measures the nearest point from the origin. Add a
+    cut-to-one: your code clamps a length along the edge to [0, 1]. Clamp it to the
+      length of the edge
+    length-for-share: your code multiplies a length along the edge by b - a. Multiply it
+      by the unit vector, or divide it by the length of the edge
+    distance-to-the-start: beyond the end b your code uses the distance to a, but the
       nearest point is b
-    first-crossing-only: your code tests only the first crossing of the circle; an edge
-      that starts in a disc has only the second one
-    some-crossing: your code tests whether the infinite line meets the circle; both
-      crossings can lie beyond an end of the edge => the sign of the discriminant
+    first-crossing-only: your code tests only the first crossing of the circle, but an
+      edge that starts in a disc has only the second one
+    some-crossing: your code tests whether the infinite line meets the circle, but both
+      crossings can lie beyond an end of the edge
     boxes-overlap: your code tests whether the bounding boxes of the edge and the disc
       overlap. The edge can miss the disc inside its box
-    x-and-y-exchanged: x and y of the centres are swapped
-    no-disc-is-hit: if there is no disc, your code reports a blocked edge; the edge is
-      free
-    touching-between: an edge that touches a disc between its ends is reported as free.
-      It should be blocked
+    x-and-y-exchanged: your code swaps x and y of the centres. Each disc is (x, y,
+      radius)
+    no-disc-is-hit: if there is no disc, your code reports a blocked edge, but the edge
+      is free
+    touching-between: your code reports an edge that touches a disc between its ends as
+      free. It should be blocked
     points-only 7: your code misses discs that cover only a little of the edge. It tests
-      only some points, or its nearest point is not exact => a test of a thousand points
-    points-only 8: your code tests only some points of the edge; a small disc fits
-      between two of them => a test of ten points without the end
+      only some points, or its nearest point is not exact
+    points-only 8: your code tests only some points of the edge, but a small disc fits
+      between two of them
     points-only 9: your code misses discs that cover only a little of the edge. It tests
-      only some points, or its nearest point is not exact => a test of a hundred points
+      only some points, or its nearest point is not exact
     points-only 10: your code misses discs that cover only a little of the edge. It
-      tests only some points, or its nearest point is not exact => a test of fifty
-      points
+      tests only some points, or its nearest point is not exact
     """
     along = b - a
     square = along @ along
@@ -360,8 +359,8 @@ def _(a, b, discs):
 
 @row.wrong(hidden="the lab has no edge of no length")
 def divided_by_nothing(a, b, discs):
-    """an edge of length 0 is always reported as blocked. Its parameter is 0 / 0 = NaN,
-    and a comparison with NaN is False: treat the edge as a point"""
+    """your code always reports an edge of length 0 as blocked. Its parameter is 0 / 0 =
+    NaN, and a comparison with NaN is False. Treat the edge as a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -371,8 +370,8 @@ def divided_by_nothing(a, b, discs):
 
 @row.wrong("divided-by-nothing")
 def _(a, b, discs):
-    """an edge of length 0 is always reported as free. Its parameter is 0 / 0 = NaN, and
-    a comparison with NaN is False: treat the edge as a point"""
+    """your code always reports an edge of length 0 as free. Its parameter is 0 / 0 =
+    NaN, and a comparison with NaN is False. Treat the edge as a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -382,8 +381,8 @@ def _(a, b, discs):
 
 @row.wrong
 def touching_and_no_length(a, b, discs):
-    """an edge that touches a disc is reported as free, and your code divides by 0 for
-    an edge of length 0. A touching edge is blocked; an edge of length 0 is a point"""
+    """your code reports an edge that touches a disc as free, and it divides by 0 for an
+    edge of length 0. A touching edge is blocked, and an edge of length 0 is a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)

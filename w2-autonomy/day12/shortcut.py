@@ -108,7 +108,10 @@ def _blocked(path, world, pairs):
     return len(pairs) == 1 or len(shortcut(path, world, pairs)) > free
 
 
-@row.valid("Your paths are valid and shorter, by other cuts.")
+@row.valid(
+    "Your paths are valid and shorter, but your code makes other shortcuts than "
+    "the specified ones."
+)
 def _(path, world, pairs, answer):
     at = [int(np.argmin(np.abs(path - x).max(axis=1))) for x in answer]
     if not np.array_equal(path[at], answer) or at[:1] + at[-1:] != [0, len(path) - 1]:
@@ -121,37 +124,39 @@ def _(path, world, pairs, answer):
 
 @row.wrongs
 def _(path, world, pairs):
-    """not-checked: your code removes the points without testing whether the new edge is
-      free
-    one-node-short: point j is removed too, so the new edge ends at a point that was not
-      tested
-    one-node-short 2: point i is removed too. Keep path[: i + 1]
-    one-too-many: the point before j is kept. Remove all points between i and j
-    end-lost: the first shortcut removes the end of the path
+    """not-checked: your code removes the points without testing the new edge. Remove
+      them only if this edge is free
+    one-node-short: your code removes point j too, so the new edge ends at a point that
+      was not tested
+    one-node-short 2: your code removes point i too. Keep path[: i + 1]
+    one-too-many: your code keeps the point before j. Remove all points between i and j
+    end-lost: your first shortcut removes the end of the path
     first-cut-only: your code stops after the first shortcut. Try all pairs
-    indices-of-the-first-path: the pairs refer to rows of the original path. They should
-      refer to the current path
-    indices-of-the-first-path 2: the indices are computed with the length of the
-      original path, but used in the current path. Use the current length
+    indices-of-the-first-path: your pairs refer to rows of the original path. They
+      should refer to the current path
+    indices-of-the-first-path 2: your code computes the indices with the length of the
+      original path, but uses them in the current path. Use the current length
     not-sorted: your code skips a pair if its first row is the larger one. Sort the two
       rows
-    rounded: u m is rounded to the nearest integer; int() rounds down
-    rounded 2: u (m - 1) is rounded. Use int(u m), which gives every row the same
+    rounded: your code rounds u m to the nearest integer. Use int(), which rounds down
+    rounded 2: your code rounds u (m - 1). Use int(u m), which gives every row the same
       probability
-    of-m-minus-one: u is multiplied by m - 1. Use int(u m), which gives every row the
-      same probability
-    neighbours-too: your code also treats neighbouring rows as a shortcut => a test with
-      j - i > 0
-    two-apart-left: your code skips rows that are two apart; the point between them can
-      be removed
-    hit-for-free: the test is inverted, so your code applies shortcuts that are blocked
-    unchanged: your code returns the original path
-    all-but-the-ends: your code returns only the start and the end
+    of-m-minus-one: your code multiplies u by m - 1. Use int(u m), which gives every row
+      the same probability
+    neighbours-too: your code also treats neighbouring rows as a shortcut, but no point
+      lies between them
+    two-apart-left: your code skips rows that are two apart, but the point between them
+      can be removed
+    hit-for-free: your code inverts the test, so it applies shortcuts that are blocked
+    unchanged: your code returns the original path. Apply each shortcut whose edge is
+      free
+    all-but-the-ends: your code returns only the start and the end. Keep the other
+      points of the path
     only-the-ends-checked: your code tests only the two points. Test the edge between
       them
     middle-checked: your code tests only the midpoint of the edge. Test the whole edge
-    reversed: the path runs from its end to its start
-    ends-at-i: your code returns only the path up to i
+    reversed: your path runs from its end to its start. Keep the order of the waypoints
+    ends-at-i: your code returns only the path up to i. Append the path from j on
     """
     none = np.empty((0, 2))
 

@@ -78,50 +78,50 @@ def _(rng):
 
 @row.wrongs
 def _(q, target, step):
-    """overshoots: a full step is taken even if the target is nearer. Stop at the target
-      => a full step in every case
+    """overshoots: your code takes a full step even if the target is nearer. Stop at the
+      target
     no-limit: your code returns the target at any distance. Limit the motion to one step
-    fraction: `step` is used as a fraction of the displacement, but it is a length => q
-      + step (target - q)
-    fraction-at-most-all: `step` is used as a fraction of the displacement, at most 1,
-      but it is a length
-    not-unit: the displacement to a far target is not divided by its norm => q + step
-      (target - q) for far targets
-    squared: the displacement is divided by its squared norm. Divide it by the norm
-    from-the-target: the step is subtracted from the target. Start at q
-    from-the-target 2: the step is added to the target. Start at q
+    fraction: your code uses `step` as a fraction of the displacement, but it is a
+      length
+    fraction-at-most-all: your code uses `step` as a fraction of the displacement, at
+      most 1, but it is a length
+    not-unit: your code does not divide the displacement to a far target by its norm
+    squared: your code divides the displacement by its squared norm. Divide it by the
+      norm
+    from-the-target: your code subtracts the step from the target. Start at q
+    from-the-target 2: your code adds the step to the target. Start at q
     direction-only: your code returns the displacement. Add q
     direction-only 2: your code returns the displacement, limited to one step. Add q
-    away: the point moves away from the target; the direction is target - q
-    away 2: if the target is far, the point moves away from it; the direction is target
-      - q
+    away: your point moves away from the target. The direction should be target - q
+    away 2: if the target is far, your point moves away from it. The direction should be
+      target - q
     stays-when-near: if the target is within one step, your code returns q. Return the
       target
-    always-q: your code always returns q
-    largest-coordinate: the largest difference in one coordinate is used as the
+    always-q: your code always returns q. It should move one step towards the target
+    largest-coordinate: your code uses the largest difference in one coordinate as the
       distance. Use the Euclidean norm
-    largest-coordinate 2: each coordinate is limited to a step. Limit the norm of the
-      displacement
-    sum-of-sizes: the sum of the absolute differences is used as the distance. Use the
-      Euclidean norm
-    unit-step: the displacement has norm 1. Use the argument `step`
-    half-a-step: the displacement is half a step
-    limit-the-other-way: the two cases are swapped. Return the target if it is near,
+    largest-coordinate 2: your code limits each coordinate to a step. Limit the norm of
+      the displacement
+    sum-of-sizes: your code uses the sum of the absolute differences as the distance.
+      Use the Euclidean norm
+    unit-step: your displacement has norm 1. Use the argument `step`
+    half-a-step: your displacement is half a step. Use a whole step
+    limit-the-other-way: your code swaps the two cases. Return the target if it is near,
       and take a full step if it is far
-    from-the-origin: the step starts at the origin. Start at q
-    square-compared: the squared distance is compared with the step. Compare the
+    from-the-origin: your step starts at the origin. Start at q
+    square-compared: your code compares the squared distance with the step. Compare the
       distance
-    two-coordinates: the distance uses only the first two coordinates. Use all of them
-    root-of-the-mean: your code takes the root of the mean of the squares; take the root
+    two-coordinates: your distance uses only the first two coordinates. Use all of them
+    root-of-the-mean: your code takes the root of the mean of the squares. Take the root
       of their sum
-    length-of-the-target: the displacement is divided by the norm of the target. Divide
-      it by the norm of target - q
-    direction-from-the-origin: the direction is the target's direction from the origin.
+    length-of-the-target: your code divides the displacement by the norm of the target.
+      Divide it by the norm of target - q
+    direction-from-the-origin: your direction is the target's direction from the origin.
       Use the direction from q
-    stops-half-way: if the target is near, the point moves only half of the distance.
+    stops-half-way: if the target is near, your point moves only half of the distance.
       Return the target
-    step-on-each-coordinate: if the target is far, each coordinate changes by a full
-      step. The norm of the displacement should be one step
+    step-on-each-coordinate: if the target is far, your code changes each coordinate by
+      a full step. The norm of the displacement should be one step
     """
     way = target - q
     far = np.linalg.norm(way)
@@ -168,7 +168,7 @@ def _(q, target, step):
 @row.wrong(hidden="the lab never steers to where a tree stands")
 def divided_by_nothing(q, target, step):
     """if the target equals q, the distance is 0 and your code computes 0 / 0 (NaN).
-    Return q => the formula without that case"""
+    Return q"""
     way = target - q
     with np.errstate(all="ignore"):
         return q + min(step, np.linalg.norm(way)) * (way / np.linalg.norm(way))

@@ -110,48 +110,49 @@ def bobrow(a, b, c, limits, sd2_max):
 
 @row.wrongs
 def _(a, b, c, limits, sd2_max):
-    """no-braking: there is no backward pass, so the motion cannot stop at the end =>
-      the forward pass alone, up to sd2_max,
-    no-braking 2: there is no backward pass, so the motion stops abruptly at the end =>
-      the forward pass alone, with 0 at the end,
-    end-not-at-rest: the backward pass starts with sd2_max at the end. Start with 0
-    start-not-at-rest: the motion starts with the largest sd^2 from which it can stop.
+    """no-braking: your code has no backward pass, so the motion cannot stop at the end
+    no-braking 2: your code has no backward pass, so the motion stops abruptly at the
+      end
+    end-not-at-rest: your backward pass starts with sd2_max at the end. Start with 0
+    start-not-at-rest: your motion starts with the largest sd^2 from which it can stop.
       Start with 0
-    backward-pass-only: there is no forward pass, so the motion does not start at rest
-      => the backward pass alone
-    backward-pass-only 2: there is no forward pass, so sd^2 jumps from 0 to its maximum
-      => the backward pass alone, with 0 at the start,
-    smaller-of-two-passes: the two passes are computed independently, and the minimum is
-      taken; the forward pass must use the limits from the backward pass
-    ds-for-2-ds: sd^2 grows by ds u in a step. It should grow by 2 ds u
-    four-ds: sd^2 grows by 4 ds u in a step. It should grow by 2 ds u
-    points-for-steps: ds is 1 / (N + 1); N + 1 points have N steps, so ds is 1 / N
-    sd-for-sd2: `path_accel_bounds` is called with sd^2. Its argument should be sd
-    sd-for-sd2 2: in the backward pass `path_accel_bounds` is called with sd^2. Its
-      argument should be sd
-    sd-for-sd2 3: in the forward pass `path_accel_bounds` is called with sd^2. Its
-      argument should be sd
-    most-of-the-point-before: in the forward pass sd^2 at i + 1 is limited by the
+    backward-pass-only: your code has no forward pass, so the motion does not start at
+      rest
+    backward-pass-only 2: your code has no forward pass, so sd^2 jumps from 0 to its
+      maximum
+    smaller-of-two-passes: your code computes the two passes independently and takes the
+      minimum. The forward pass should use the limits from the backward pass
+    ds-for-2-ds: your sd^2 grows by ds u in a step. It should grow by 2 ds u
+    four-ds: your sd^2 grows by 4 ds u in a step. It should grow by 2 ds u
+    points-for-steps: your ds is 1 / (N + 1). The N + 1 points have N steps between
+      them, so ds should be 1 / N
+    sd-for-sd2: your code calls `path_accel_bounds` with sd^2. Its argument should be sd
+    sd-for-sd2 2: in the backward pass, your code calls `path_accel_bounds` with sd^2.
+      Its argument should be sd
+    sd-for-sd2 3: in the forward pass, your code calls `path_accel_bounds` with sd^2.
+      Its argument should be sd
+    most-of-the-point-before: in the forward pass, your code limits sd^2 at i + 1 by the
       maximum at i. Use the maximum at i + 1
-    no-speed-limit: sd2_max is not used, so the speed of the motors is not limited
-    speed-limit-forwards-only: sd2_max is used only in the forward pass; the backward
-      pass needs it too
-    gravity-forgotten: gravity is missing in the torques
-    coriolis-forgotten: b is missing in the torques
+    no-speed-limit: your code does not use sd2_max, so it does not limit the speed of
+      the motors
+    speed-limit-forwards-only: your code uses sd2_max only in the forward pass, but the
+      backward pass needs it too
+    gravity-forgotten: your code omits gravity in the torques
+    coriolis-forgotten: your code omits b in the torques
     cannot-stand-goes: your code returns a motion although gravity alone exceeds a
-      torque limit; the arm cannot hold there, so return zeros => the formula without
-      that case
-    few-bisections: the bisection stops too early => the result after 10 halvings
-    few-bisections 2: the bisection stops too early => the result after 20 halvings
-    limits-of-the-next-point: the bounds on sdd for a step are computed at the end of
-      the step. Compute them at its first point
-    bobrow: in the backward pass the bounds on sdd for a step are computed at the end of
-      the step. Compute them at its first point
+      torque limit. The arm cannot hold there, so return zeros
+    few-bisections: your bisection stops too early, so its result is not accurate enough
+    few-bisections 2: your bisection stops too early, so its result is not accurate
+      enough
+    limits-of-the-next-point: your code computes the bounds on sdd for a step at the end
+      of the step. Compute them at its first point
+    bobrow: in the backward pass, your code computes the bounds on sdd for a step at the
+      end of the step. Compute them at its first point
     root: your code returns sd. Return sd^2
     times: your code returns the time of each point. Return sd^2
-    half-the-torque: your code uses only half of each torque limit
-    never-moves: sd^2 is 0 at every point. Check the result of the backward pass, and
-      whether the forward pass uses the largest sdd
+    half-the-torque: your code uses only half of each torque limit. Use the whole limit
+    never-moves: your sd^2 is 0 at every point. Check the result of the backward pass,
+      and whether the forward pass uses the largest sdd
     accelerations: your code returns sdd of each step. Return sd^2
     """
     given = (a, b, c, limits, sd2_max)

@@ -64,62 +64,60 @@ def _(rng):
 @row.wrongs
 def _(successes, n):
     """wald: your function returns the Wald interval, p +- z sqrt(p (1 - p) / n). It
-      uses the variance at k / n, so its width is 0 for k = 0 and for k = n => p +- 1.96
-      sqrt(p (1 - p) / n)
+      uses the variance at k / n, so its width is 0 for k = 0 and for k = n
     wald-cut: your function returns the Wald interval, p +- z sqrt(p (1 - p) / n),
-      clamped to 0..1. It uses the variance at k / n, so its width is 0 for k = 0 and
+      clamped to [0, 1]. It uses the variance at k / n, so its width is 0 for k = 0 and
       for k = n
-    centre-not-moved: the centre is k / n; Wilson's centre is shifted towards one half
-      => the formula without z^2 / (2 n) in the centre
-    width-without-z2: the term z^2 / (4 n^2) is missing under the root
-    not-divided: the division by 1 + z^2 / n is missing
-    middle-not-divided: only the half-width is divided by 1 + z^2 / n. Divide the centre
-      too
-    width-not-divided: only the centre is divided by 1 + z^2 / n. Divide the half-width
-      too
-    root-n-forgotten: p (1 - p) is not divided by n, so more trials do not make the
-      interval narrower
-    ninety: z = 1.645 gives a 90 % interval. Use 1.96
-    ninety-without-z2: z = 1.645 is used instead of 1.96, and the term z^2 / (4 n^2) is
-      missing under the root
-    two-sigma: z is 2. Use 1.96
-    one-sigma: z = 1 gives a 68 % interval. Use 1.96
-    ninety-nine: z = 2.576 gives a 99 % interval. Use 1.96
-    more-digits: z = 1.959964 is more exact than 1.96, but the task uses 1.96 so that
-      all results agree => the formula with 1.959964
-    z-for-z2: z is used instead of z^2 in the centre and in the denominator
-    two-n: the centre contains z^2 / n. It should contain z^2 / (2 n)
-    four-forgotten: the root contains z^2 / n^2. It should contain z^2 / (4 n^2)
-    n-for-n2: the root contains z^2 / (4 n). It should contain z^2 / (4 n^2)
-    successes-for-p: k is used as the proportion. Use k / n
+    centre-not-moved: your centre is k / n, but Wilson's centre is shifted towards one
+      half
+    width-without-z2: your code omits the term z^2 / (4 n^2) under the root
+    not-divided: your code omits the division by 1 + z^2 / n
+    middle-not-divided: your code divides only the half-width by 1 + z^2 / n. Divide the
+      centre too
+    width-not-divided: your code divides only the centre by 1 + z^2 / n. Divide the
+      half-width too
+    root-n-forgotten: your code does not divide p (1 - p) by n, so more trials do not
+      make the interval narrower
+    ninety: your z is 1.645, which gives a 90 % interval. Use 1.96
+    ninety-without-z2: your z is 1.645 instead of 1.96, and your code omits the term z^2
+      / (4 n^2) under the root
+    two-sigma: your z is 2. Use 1.96
+    one-sigma: your z is 1, which gives a 68 % interval. Use 1.96
+    ninety-nine: your z is 2.576, which gives a 99 % interval. Use 1.96
+    more-digits: your z is 1.959964, which is more exact than 1.96, but the task uses
+      1.96 so that all results agree
+    z-for-z2: your code uses z instead of z^2 in the centre and in the denominator
+    two-n: your centre contains z^2 / n. It should contain z^2 / (2 n)
+    four-forgotten: your root contains z^2 / n^2. It should contain z^2 / (4 n^2)
+    n-for-n2: your root contains z^2 / (4 n). It should contain z^2 / (4 n^2)
+    successes-for-p: your code uses k as the proportion. Use k / n
     failures: your code returns the interval of the failures, n - k. Return the interval
       of the successes
-    high-first: the upper end comes first. Return the lower end first
-    high-first 2: for n > 0 the upper end comes first. Return the lower end first
+    high-first: your upper end comes first. Return the lower end first
+    high-first 2: for n > 0 your upper end comes first. Return the lower end first
     middle-and-width: your code returns the centre and the half-width. Return the two
       ends
-    rule-of-three: for k = 0 the upper end is 3 / n, which is the rule of three, not the
-      Wilson interval
-    rule-of-three 2: for k = 0 the upper end is 3 / n, and for k = n the lower end is 1
-      - 3 / n. These ends come from the rule of three, not from the Wilson interval
-    rule-of-three 3: for k = 0 the upper end is 3 / n, and for k = n the lower end is 1
-      - 3 / n. These ends come from the rule of three, not from the Wilson interval =>
-      this rule, clamped to 0..1,
+    rule-of-three: for k = 0 your upper end is 3 / n, which comes from the rule of
+      three, not from the Wilson interval
+    rule-of-three 2: for k = 0 your upper end is 3 / n, and for k = n your lower end is
+      1 - 3 / n. These ends come from the rule of three, not from the Wilson interval
+    rule-of-three 3: for k = 0 your upper end is 3 / n, and for k = n your lower end is
+      1 - 3 / n. These ends come from the rule of three, not from the Wilson interval
     plus-four: your code uses the Wald interval with p = (k + 2) / (n + 4) (Agresti and
       Coull). Use the Wilson interval
     plus-four 2: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
       n + z^2 trials (Agresti and Coull). Use the Wilson interval
     plus-four 3: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
-      n + z^2 trials (Agresti and Coull). Use the Wilson interval => this interval,
-      clamped to 0..1,
-    one-more: p is (k + 1) / (n + 2), with one success and one failure added. Use k / n
-    quadratic-sign: the quadratic equation for p has the coefficient -2 k / n + z^2 / n,
-      but it should be -(2 k / n + z^2 / n) => the roots with this sign
-    quadratic-z2: the quadratic equation for p has the coefficient -(2 k / n + z^2), but
-      it should be -(2 k / n + z^2 / n) => the roots with z^2
-    half-width: the interval has half of the correct width
-    one-is-none: for n = 1 your code returns (0, 1); only n = 0 is a special case => (0,
-      1) for n = 0 and n = 1
+      n + z^2 trials (Agresti and Coull). Use the Wilson interval
+    one-more: your p is (k + 1) / (n + 2), with one success and one failure added. Use k
+      / n
+    quadratic-sign: your quadratic equation for p has the coefficient -2 k / n + z^2 /
+      n, but it should be -(2 k / n + z^2 / n)
+    quadratic-z2: your quadratic equation for p has the coefficient -(2 k / n + z^2),
+      but it should be -(2 k / n + z^2 / n)
+    half-width: your interval has half of the correct width. The half-width should be
+      added and subtracted
+    one-is-none: for n = 1 your code returns (0, 1), but only n = 0 is a special case
     """
     k, trials = successes, n
     n = n or 1  # of no trial see below
@@ -195,7 +193,7 @@ def _(successes, n):
 @row.wrong
 def none_divides(successes, n):
     """for n = 0 your code divides by 0. Return (0, 1), because no proportion can be
-    excluded => the formula without that case"""
+    excluded"""
     with np.errstate(all="ignore"):
         k, n = np.float64(successes), np.float64(n)
         p, z = k / n, 1.96
@@ -206,7 +204,7 @@ def none_divides(successes, n):
 @row.wrong("none-divides")
 def _(successes, n):
     """for n = 0 your code returns another result. Return (0, 1), because no proportion
-    can be excluded => (0, 0) for n = 0"""
+    can be excluded"""
     return np.zeros(2) if n == 0 else wilson_interval(successes, n)
 
 

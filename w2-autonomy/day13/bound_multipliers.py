@@ -19,28 +19,32 @@ def _(rng):
 
 @row.wrongs
 def _(H, f, lo, hi, x):
-    """sign: the signs are reversed. If a bound moves in the direction of the gradient,
-      the cost increases
-    absolute: the signs are lost. If an upper bound moves up, the cost falls
-    upper-only: only the upper bounds have a multiplier
-    lower-only: only the lower bounds have a multiplier
-    no-price: the held entries are 0. The multiplier of a held entry should be its
-      gradient
-    largest-only: only the largest multiplier is returned. Each held entry should have
-      its own
-    first-limit-only: only the first held entry has its multiplier. Each held entry
-      should have its own
-    times-the-width: the gradient is multiplied by the distance between the bounds. The
-      multiplier should be the change of the cost per unit of the bound
-    lower-sign: the multipliers of the lower bounds have the wrong sign
-    g-forgotten: f is missing in the gradient
-    H-halved: the gradient is H x / 2 + f. The gradient of x . H x / 2 is H x
-    H-doubled: the gradient is 2 H x + f. The gradient of x . H x / 2 is H x
-    divided-by-H: the gradient is divided by the diagonal of H, which gives a distance,
-      not a cost
-    how-far: the result is the distance to the unconstrained minimiser. The multiplier
+    """sign: your code reverses the signs. If a bound moves in the direction of the
+      gradient, the cost increases
+    absolute: your code loses the signs. If an upper bound moves up, the cost falls
+    upper-only: your code returns nonzero multipliers only for the upper bounds. A lower
+      bound that holds an entry has a multiplier too
+    lower-only: your code returns nonzero multipliers only for the lower bounds. An
+      upper bound that holds an entry has a multiplier too
+    no-price: your multipliers of the held entries are 0. The multiplier of a held entry
+      should be its gradient
+    largest-only: your code returns only the largest multiplier. Each held entry should
+      have its own
+    first-limit-only: your code returns a multiplier only for the first held entry. Each
+      held entry should have its own
+    times-the-width: your code multiplies the gradient by the distance between the
+      bounds. The multiplier should be the change of the cost per unit of the bound
+    lower-sign: your multipliers of the lower bounds have the wrong sign. A multiplier
+      should be the gradient itself
+    g-forgotten: your code omits f in the gradient, which is H x + f
+    H-halved: your gradient is H x / 2 + f. The gradient of x . H x / 2 is H x
+    H-doubled: your gradient is 2 H x + f. The gradient of x . H x / 2 is H x
+    divided-by-H: your code divides the gradient by the diagonal of H, which gives a
+      distance, not a cost
+    how-far: your result is the distance to the unconstrained minimiser. The multiplier
       should be the change of the minimum cost
-    one-each: the result contains only the sign of each multiplier
+    one-each: your result contains only the sign of each multiplier. Return the gradient
+      of each held entry
     """
     slope = H @ x + f
     low = (x <= lo) & (slope > 0)

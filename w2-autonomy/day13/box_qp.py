@@ -233,62 +233,70 @@ def held_for_good(H, f, lo, hi, x, own=True):
 
 @row.wrongs(hidden={"stops-too-early": "no held entry of the lab moves so little"})
 def _(H, f, lo, hi, x):
-    """clip-the-optimum: the result is the unconstrained minimiser, clamped. If one
-      entry is held at a bound, the minimum over the other entries moves: solve for them
-      again
-    no-limits: the result is the unconstrained minimiser -H^-1 f. The bounds are missing
-    scaled-back: the step to the unconstrained minimiser ends at the first bound. The
+    """clip-the-optimum: your result is the unconstrained minimiser, clamped to the
+      bounds. If one entry is held at a bound, the minimum over the other entries moves,
+      so solve for them again
+    no-limits: your result is the unconstrained minimiser -H^-1 f, which ignores the
+      bounds
+    scaled-back: your step to the unconstrained minimiser ends at the first bound. The
       free entries should move on from there
-    solved-once-more: the unconstrained minimiser is clamped, and the free entries are
-      solved again only once. Then other entries may meet a bound, or a held entry may
+    solved-once-more: your code clamps the unconstrained minimiser and solves the free
+      entries again only once. Then other entries may meet a bound, or a held entry may
       have to be released
-    clipped-for-good: the free entries are solved again until all are within the bounds,
-      but no clamped entry is released. The gradient may pull it away from its bound
-    held-for-good: an entry that has met a bound is never released, or the wrong one is.
-      Release an entry that the gradient pulls away from its bound
-    steepest-let-go: the held entry with the largest gradient is released, whatever its
-      sign. Release the entry that moves most in the clamped step of task 13.4
-    all-let-go: all held entries are released at once, so they meet the same bounds
-      again. Release only the entry that would move most
-    stops-too-early: the loop ends while a held entry would still move by up to 1e-4.
+    clipped-for-good: your code solves the free entries again until all are within the
+      bounds, but it never releases a clamped entry. The gradient may pull it away from
+      its bound
+    held-for-good: your code never releases an entry that has met a bound, or it
+      releases the wrong one. Release an entry that the gradient pulls away from its
+      bound
+    steepest-let-go: your code releases the held entry with the largest gradient,
+      whatever its sign. Release the entry that moves most in the clamped step of task
+      13.4
+    all-let-go: your code releases all held entries at once, so they meet the same
+      bounds again. Release only the entry that would move most
+    stops-too-early: your loop ends while a held entry would still move by up to 1e-4.
       Use a smaller tolerance
-    few-rounds: ten iterations are not enough. Repeat until no held entry has to be
-      released
-    upper-limits-passed: the upper bounds do not limit the step
-    held-by-place: every entry at a bound is held. Release an entry that the gradient
-      pulls away from its bound
-    frees-the-wrong-ones: the wrong entries are held. Hold an entry if the gradient
-      pushes it out of the box
-    held-left-out: the right-hand side for the free entries leaves out the held entries.
-      Use the gradient H x + f at the present x
-    held-left-out 2: the right-hand side for the free entries leaves out the held
+    few-rounds: your code stops after ten iterations, which are not enough. Repeat until
+      no held entry has to be released
+    upper-limits-passed: your code does not limit the step at the upper bounds
+    held-by-place: your code holds every entry at a bound. Release an entry that the
+      gradient pulls away from its bound
+    frees-the-wrong-ones: your code holds the wrong entries. Hold an entry if the
+      gradient pushes it out of the box
+    held-left-out: your right-hand side for the free entries leaves out the held
       entries. Use the gradient H x + f at the present x
-    one-step: the result is x after one clamped Newton step
-    full-hessian: each step is solved with all of H. The held entries do not move, so
-      leave out their rows and columns
-    whole-steps: each Newton step of the free entries is taken in full and clamped. This
-      can alternate forever: stop at the first bound, or halve the step until the cost
-      falls
-    diagonal-hessian: each step divides the gradient by the diagonal of H. Solve with
-      the rows and columns of the free entries
-    gradient-steps: the result is x after 100 clamped gradient steps, which have not
+    held-left-out 2: your right-hand side for the free entries leaves out the held
+      entries. Use the gradient H x + f at the present x
+    one-step: your result is x after one clamped Newton step. If one entry is held at a
+      bound, the minimum over the other entries moves, so one step is not enough
+    full-hessian: your code solves each step with all of H. The held entries do not
+      move, so leave out their rows and columns
+    whole-steps: each Newton step of your free entries is taken in full and clamped,
+      which can alternate forever. Stop at the first bound, or halve the step until the
+      cost falls
+    diagonal-hessian: each step in your code divides the gradient by the diagonal of H.
+      Solve with the rows and columns of the free entries
+    gradient-steps: your result is x after 100 clamped gradient steps, which have not
       converged
-    gradient-steps 2: clamped gradient steps of 0.1 are too long for this H and do not
-      converge. The step may be 1 over the largest eigenvalue of H
-    diagonal-hessian 2: each step divides the gradient by the diagonal of H. Solve with
-      the rows and columns of the free entries
-    gradient-steps 3: the result is x after 1,000 clamped gradient steps. They have not
+    gradient-steps 2: your clamped gradient steps of 0.1 are too long for this H and do
+      not converge. The step may be 1 over the largest eigenvalue of H
+    diagonal-hessian 2: each step in your code divides the gradient by the diagonal of
+      H. Solve with the rows and columns of the free entries
+    gradient-steps 3: your result is x after 1,000 clamped gradient steps. They have not
       converged if the condition number of H is large, as in 13.6
-    one-gradient-step: the result is x after one clamped gradient step
-    steps-too-long: clamped steps by the whole gradient may not converge. The step may
-      be the gradient over the largest eigenvalue of H
-    few-sweeps: the result is x after 100 sweeps of coordinate descent, which have not
+    one-gradient-step: your result is x after one clamped gradient step, which is not
+      the minimum. Repeat the steps until x no longer changes, or solve for the free
+      entries
+    steps-too-long: your code clamps steps by the whole gradient, which may not
+      converge. The step may be the gradient over the largest eigenvalue of H
+    few-sweeps: your result is x after 100 sweeps of coordinate descent, which have not
       converged
-    one-sweep: the result is x after one sweep of coordinate descent. Each later entry
+    one-sweep: your result is x after one sweep of coordinate descent. Each later entry
       moves the minimum over the earlier ones
-    lower-only: only the lower bounds are used
-    upper-only: only the upper bounds are used
-    start-returned: the result is the start, clamped to the bounds
+    lower-only: your code uses only the lower bounds. Use the upper bounds too
+    upper-only: your code uses only the upper bounds. Use the lower bounds too
+    start-returned: your result is the start, clamped to the bounds. Move it to the
+      minimum within the bounds
     """
     given = (H, f, lo, hi, x)
     free = np.linalg.solve(H, -f)

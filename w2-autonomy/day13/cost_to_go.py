@@ -18,14 +18,14 @@ def _(rng):
 
 @row.wrongs
 def _(P, x):
-    """half: the result is half of the cost-to-go. The LQR cost of this day has no
+    """half: your result is half of the cost-to-go, but the LQR cost of this day has no
       factor 1/2
-    length-of-P-x: the result is the norm of P x. The cost-to-go is x . P x
-    summed: the entries of P x are summed. Multiply them by the entries of x first
-    P-rooted: the square roots of the entries of P are used
-    P-by-squares: P is multiplied by the squares of the entries of x. The entries of P
-      off the diagonal belong to products of two different entries
-    trace: the trace of P is used instead of P
+    length-of-P-x: your result is the norm of P x. The cost-to-go is x . P x
+    summed: your code sums the entries of P x. Multiply them by the entries of x first
+    P-rooted: your code uses the square roots of the entries of P. Use P itself
+    P-by-squares: your code multiplies P by the squares of the entries of x. The entries
+      of P off the diagonal belong to products of two different entries
+    trace: your code uses the trace of P instead of P
     """
     right = x @ P @ x
     return {

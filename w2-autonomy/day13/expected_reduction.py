@@ -20,9 +20,9 @@ def _(rng):
 
 @row.wrongs
 def _(dV, alpha):
-    """sign: the sign is reversed. A reduction is positive if the cost falls
-    alpha-rooted: the quadratic part is multiplied by the square root of alpha. It
-      should be multiplied by alpha^2
+    """sign: your code reverses the sign. A reduction is positive if the cost falls
+    alpha-rooted: your code multiplies the quadratic part by the square root of alpha.
+      It should be multiplied by alpha^2
     """
     first, second = dV
     return {

@@ -72,69 +72,80 @@ def by_pairs(J_space, masses, coms, g, *, first=max, swapped=False):
 
 @row.wrongs
 def _(J_space, masses, coms, g):
-    """sign: the sign is reversed. Relative to the rotated links, gravity rotates in the
-      opposite direction: use g x omega, not omega x g
-    gravity-not-turned: g is used instead of g x omega, so each column is the gravity
-      torque itself. The stiffness is its derivative
-    gravity-not-turned 2: g is used instead of g x omega, so each column is the gravity
-      torque itself. The stiffness is its derivative
-    g-times-omega: g and omega are multiplied entry by entry. Use the cross product g x
-      omega
-    link-i-only: row i contains the weight of link i only. Joint i also carries the
+    """sign: your code reverses the sign. Relative to the rotated links, gravity rotates
+      in the opposite direction, so use g x omega instead of omega x g
+    gravity-not-turned: your code uses g instead of g x omega, so each column is the
+      gravity torque itself. The stiffness is its derivative
+    gravity-not-turned 2: your code uses g instead of g x omega, so each column is the
+      gravity torque itself. The stiffness is its derivative
+    g-times-omega: your code multiplies g and omega entry by entry. Use the cross
+      product g x omega
+    link-i-only: your row i contains the weight of link i only. Joint i also carries the
       links that are distal to it
-    only-links-after: row i leaves out the weight of link i. Joint i moves link i, too
-    all-links: row i contains the weights of all links. Joint i does not carry the links
-      before it
-    lever-sign: the lever arm has the wrong sign. A centre of mass moves with v + omega
+    only-links-after: your row i leaves out the weight of link i. Joint i moves link i,
+      too
+    all-links: your row i contains the weights of all links. Joint i does not carry the
+      links before it
+    lever-sign: your lever arm has the wrong sign. A centre of mass moves with v + omega
       x c
-    halves-swapped: omega and v are swapped. The upper three rows of J_space are omega
-    upper-half-zero: all entries above the diagonal are 0. The matrix is symmetric
-    lower-half-zero: all entries below the diagonal are 0. The matrix is symmetric
-    upper-half-sign: the entries above the diagonal have the wrong sign. The matrix is
+    halves-swapped: your code swaps omega and v. The upper three rows of J_space are
+      omega
+    upper-half-zero: your entries above the diagonal are all 0, but the matrix is
       symmetric
-    half-beside-the-diagonal: the off-diagonal entries are halved. The mean of a lower
-      triangular matrix and its transpose halves them, because one of the two is 0 there
-    diagonal-zero: the diagonal is 0. The lower triangle should include the diagonal
-    not-symmetrised: the formula is also used above the diagonal. It holds for i >= j
-      only, because there joint j rotates every link that joint i carries. Copy the
+    lower-half-zero: your entries below the diagonal are all 0, but the matrix is
+      symmetric
+    upper-half-sign: your entries above the diagonal have the wrong sign. The matrix
+      should be symmetric
+    half-beside-the-diagonal: your code halves the off-diagonal entries, because it
+      takes the mean of a lower triangular matrix and its transpose. One of the two is 0
+      there
+    diagonal-zero: your diagonal is 0. The lower triangle should include the diagonal
+    not-symmetrised: your code also uses the formula above the diagonal. It holds for i
+      >= j only, because there joint j rotates every link that joint i carries. Copy the
       lower triangle to the upper one
-    not-symmetrised 2: the formula is also used above the diagonal, and the result is
-      transposed. It holds for i >= j only: copy the lower triangle to the upper one
-    averaged: the two triangles are averaged. Only the lower one is correct: copy it to
-      the upper one
-    other-half: the upper triangle is computed and copied. There joint i comes before
-      joint j, and g x omega_j holds for i >= j only
-    diagonal-doubled: the diagonal is doubled, because both of the triangles that you
-      add contain it
-    diagonal-only: all entries off the diagonal are 0. The rotation of one joint also
-      changes the torque at other joints
-    only-z: only the z component of g is used. Gravity may point in any direction
-    minus-9.81: g is replaced by (0, 0, -9.81). Gravity may point in any direction
-    minus-9.81 2: g is replaced by a vertical vector of the same norm. Gravity may point
-      in any direction
-    axis-before: column j rotates gravity about the axis of the previous joint. It needs
-      the axis of joint j
-    axes-summed: column j rotates gravity about the sum of all axes up to joint j. Only
-      joint j rotates
-    g-along-omega: the component of g along omega is used instead of g x omega
-    total-mass: every link has the mass of the whole arm
-    differences: the result is a finite difference of the torque with the large step of
+    not-symmetrised 2: your code also uses the formula above the diagonal and transposes
+      the result. The formula holds for i >= j only, so copy the lower triangle to the
+      upper one
+    averaged: your code averages the two triangles, but only the lower one is correct.
+      Copy it to the upper one
+    other-half: your code computes the upper triangle and copies it. There joint i comes
+      before joint j, but g x omega_j holds for i >= j only
+    diagonal-doubled: your code doubles the diagonal, because both of the triangles that
+      you add contain it
+    diagonal-only: your entries off the diagonal are all 0, but the rotation of one
+      joint also changes the torque at other joints
+    only-z: your code uses only the z component of g, but gravity may point in any
+      direction
+    minus-9.81: your code replaces g by (0, 0, -9.81), but gravity may point in any
+      direction
+    minus-9.81 2: your code replaces g by a vertical vector of the same norm, but
+      gravity may point in any direction
+    axis-before: your column j rotates gravity about the axis of the previous joint. It
+      should use the axis of joint j
+    axes-summed: your column j rotates gravity about the sum of all axes up to joint j,
+      but only joint j rotates
+    g-along-omega: your code uses the component of g along omega instead of g x omega
+    total-mass: every link in your code has the mass of the whole arm. Use the mass of
+      each link
+    differences: your result is a finite difference of the torque with the large step of
       0.05 rad. The stiffness is the derivative
-    last-axis: every column rotates gravity about the axis of the last joint. Column j
-      needs the axis of joint j
-    z-axis: every column rotates gravity about z. Column j needs the axis of joint j
-    turned-twice: gravity is rotated twice, by omega_i and by omega_j. Rotate it by
-      omega_j alone
-    v-for-omega: gravity is rotated by v_j. The rotation axis of a joint is omega_j, the
-      upper three rows of J_space
-    torque-added: g is added to g x omega_j, which adds the gravity torque itself. The
-      stiffness is its derivative
-    distal-joints-too: an entry also contains links that only one of the two joints
-      moves. Joints i and j both move the links from the later one on
-    roles-swapped: the two joints are swapped: the later one moves the centre of mass,
-      and the earlier one rotates this velocity, because it comes first in the chain
-    screws-stay: only the centres of mass move with joint j. The axes of the joints
-      after it move, too
+    last-axis: every column of your matrix rotates gravity about the axis of the last
+      joint. Column j should use the axis of joint j
+    z-axis: every column of your matrix rotates gravity about z. Column j should use the
+      axis of joint j
+    turned-twice: your code rotates gravity twice, by omega_i and by omega_j. Rotate it
+      by omega_j alone
+    v-for-omega: your code rotates gravity by v_j. The rotation axis of a joint is
+      omega_j, the upper three rows of J_space
+    torque-added: your code adds g to g x omega_j, which adds the gravity torque itself.
+      The stiffness is its derivative
+    distal-joints-too: each of your entries also contains links that only one of the two
+      joints moves. Joints i and j both move the links from the later joint on
+    roles-swapped: your code swaps the two joints. The later joint moves the centre of
+      mass, and the earlier one rotates this velocity, because it comes first in the
+      chain
+    screws-stay: in your code, joint j moves only the centres of mass. It should also
+      move the axes of the joints after it
     """
     omega = J_space[:3].T
     turned = np.cross(g, omega)

@@ -79,57 +79,67 @@ def sum_of(k, luu):
 
 @row.wrongs
 def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
-    """mu-in-k-only: mu is used only in k. Add it to Quu wherever Quu appears
-    mu-in-k-only 2: mu is missing in K. Add it to Quu wherever Quu appears
-    mu-in-K-only: mu is missing in k. Add it to Quu wherever Quu appears
-    mu-squared: mu is squared
-    mu-not-in-V: mu is missing in Vx and Vxx. Use the same Quu as in the gains
-    mu-not-in-V 2: mu is missing in Vx, Vxx and drop. Use the same Quu as in the gains
-    mu-not-in-the-drop: mu is missing in drop. Use the same Quu as in the gains
-    mu-on-Vxx: mu is added to Vxx. Add it to the diagonal of Quu
-    mu-on-Vxx 2: mu is added to Vxx in Quu. Add it to the diagonal of Quu itself
-    Vx-not-passed-on: every step uses Vx of the final cost. Update it in each step
-    Vxx-not-passed-on: every step uses Vxx of the final cost. Update it in each step
-    V-signs: `Vx` and `Vxx` are Qx - Qux^T k and Qxx - Qux^T K. The minus sign is
+    """mu-in-k-only: your code uses mu only in k. Add it to Quu wherever Quu appears
+    mu-in-k-only 2: your code omits mu in K. Add it to Quu wherever Quu appears
+    mu-in-K-only: your code omits mu in k. Add it to Quu wherever Quu appears
+    mu-squared: your code squares mu. Add mu itself to the diagonal of Quu
+    mu-not-in-V: your code omits mu in Vx and Vxx. Use the same Quu as in the gains
+    mu-not-in-V 2: your code omits mu in Vx, Vxx and `drop`. Use the same Quu as in the
+      gains
+    mu-not-in-the-drop: your code omits mu in `drop`. Use the same Quu as in the gains
+    mu-on-Vxx: your code adds mu to Vxx. Add it to the diagonal of Quu
+    mu-on-Vxx 2: your code adds mu to Vxx in Quu. Add it to the diagonal of Quu itself
+    Vx-not-passed-on: every step in your code uses Vx of the final cost. Update it in
+      each step
+    Vxx-not-passed-on: every step in your code uses Vxx of the final cost. Update it in
+      each step
+    V-signs: your `Vx` and `Vxx` are Qx - Qux^T k and Qxx - Qux^T K. The minus sign is
       already in k and K
-    nothing-saved: `Vx` and `Vxx` are Qx and Qxx. The terms with the gains, which reduce
-      the cost, are missing
-    drop-last-step: drop holds the values of one step. Sum them over all steps
-    half-in-the-first: the first entry of drop is halved. Only the second has a factor
-      1/2
-    drop-summed: the two entries of drop are added. Return them separately
-    drop-of-lu: the first entry of drop uses lu. It should be the sum of k . Qu
-    drop-of-luu: the second entry of drop uses luu. It should be the sum of k . Quu k /
-      2
-    drop-signs: drop has the wrong sign. It should be the change of the cost, so k . Qu
-      is negative
-    drop-added: both entries of drop are their sum. Return them separately
-    drop-quadratic-sign: the second entry of your drop has the wrong sign. It should be
-      the sum of k . Quu k / 2, which raises the cost if Quu is positive definite
-    gain-signs: k and K have the wrong sign. The input changes by du = k + K dx
-    K-sign: K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x in the
-      LQR
-    gain-signs 2: k and K have the wrong sign. The input changes by du = k + K dx
-    K-sign 2: K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x in
-      the LQR
-    diagonal-of-Quu: the gains use only the diagonal of Quu. Solve with the whole matrix
-    last-step-left-out: the last step is left out: its k and K are 0
-    first-step-left-out: the first step is left out: its k and K are 0
-    forwards: the pass goes from the first step to the last. Only the final cost-to-go
-      is known, so begin with the last step
-    lux-not-in-K: lux is missing in K, but not in Vx and Vxx. Use Qux
-    Vx-not-in-k: k uses lu alone. Qu also contains fu^T Vx
-    mu-halved-each-step: mu is halved in each step. It should be the same in all steps
-    lx-of-the-next: each step uses lx of the next step
-    drop-mean: drop is divided by the number of steps. It should be the sum over the
+    nothing-saved: your `Vx` and `Vxx` are Qx and Qxx. They lack the terms with the
+      gains, which reduce the cost
+    drop-last-step: your `drop` holds the values of one step only. Sum them over all
       steps
-    drop-halved: both entries of drop are halved. Only the second has a factor 1/2
-    first-slopes: every step uses fx and fu of the first step
-    last-slopes: every step uses fx and fu of the last step
-    K-reversed: k and K are in reverse order. The first step comes first
-    K-reversed 2: k is in reverse order. The first step comes first
-    K-reversed 3: K is in reverse order. The first step comes first
-    end-forgotten: the pass begins with Vx = 0 and Vxx = 0. Begin with the derivatives
+    half-in-the-first: your code halves the first entry of `drop`. Only the second entry
+      has a factor 1/2
+    drop-summed: your code adds the two entries of `drop`. Return them separately
+    drop-of-lu: your first entry of `drop` uses lu. It should be the sum of k . Qu
+    drop-of-luu: your second entry of `drop` uses luu. It should be the sum of k . Quu k
+      / 2
+    drop-signs: your `drop` has the wrong sign. It should be the change of the cost, so
+      k . Qu is negative
+    drop-added: both entries of your `drop` are their sum. Return them separately
+    drop-quadratic-sign: the second entry of your `drop` has the wrong sign. It should
+      be the sum of k . Quu k / 2, which raises the cost if Quu is positive definite
+    gain-signs: your k and K have the wrong sign. The input changes by du = k + K dx
+    K-sign: your K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x in
+      the LQR
+    gain-signs 2: your k and K have the wrong sign. The input changes by du = k + K dx
+    K-sign 2: your K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x
+      in the LQR
+    diagonal-of-Quu: your gains use only the diagonal of Quu. Solve with the whole
+      matrix
+    last-step-left-out: your code leaves out the last step, so its k and K are 0
+    first-step-left-out: your code leaves out the first step, so its k and K are 0
+    forwards: your pass goes from the first step to the last. Only the final cost-to-go
+      is known, so begin with the last step
+    lux-not-in-K: your code omits lux in K, but not in Vx and Vxx. Use Qux
+    Vx-not-in-k: your k uses lu alone. Qu also contains fu^T Vx
+    mu-halved-each-step: your code halves mu in each step. It should be the same in all
+      steps
+    lx-of-the-next: each step in your code uses lx of the next step. Use lx of the same
+      step
+    drop-mean: your code divides `drop` by the number of steps. It should be the sum
+      over the steps
+    drop-halved: your code halves both entries of `drop`. Only the second entry has a
+      factor 1/2
+    first-slopes: every step in your code uses fx and fu of the first step. Use those of
+      the same step
+    last-slopes: every step in your code uses fx and fu of the last step. Use those of
+      the same step
+    K-reversed: your k and K are in reverse order. The first step should come first
+    K-reversed 2: your k is in reverse order. The first step should come first
+    K-reversed 3: your K is in reverse order. The first step should come first
+    end-forgotten: your pass begins with Vx = 0 and Vxx = 0. Begin with the derivatives
       of the final cost
     """
     given = (fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu)

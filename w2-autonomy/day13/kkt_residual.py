@@ -40,42 +40,48 @@ def clipped_first(H, f, lo, hi, x):
 
 @row.wrongs
 def _(H, f, lo, hi, x):
-    """gradient-only: the result is the largest entry of the gradient. At the minimiser
-      the gradient of a held entry is not 0: clamp the step to the bounds
-    no-abs-the-other-way: the absolute value is missing, so your function ignores an
-      entry that decreases
-    not-compared: the result is the clamped point itself. Compare it with x
-    free-only: only entries between their bounds are used. An entry at a bound also
-      contributes if the gradient pulls it away from the bound
-    lower-only: only the lower bounds clamp the step
-    upper-only: only the upper bounds clamp the step
-    cost-gap: the result is the decrease of the cost by the clamped step. The residual
+    """gradient-only: your result is the largest entry of the gradient. At the minimiser
+      the gradient of a held entry is not 0, so clamp the step to the bounds
+    no-abs-the-other-way: your code omits the absolute value, so your function ignores
+      an entry that decreases
+    not-compared: your result is the clamped point itself. Compare it with x
+    free-only: your code uses only entries between their bounds. An entry at a bound
+      also contributes if the gradient pulls it away from the bound
+    lower-only: your code clamps the step at the lower bounds only. Clamp it at the
+      upper bounds too
+    upper-only: your code clamps the step at the upper bounds only. Clamp it at the
+      lower bounds too
+    cost-gap: your result is the decrease of the cost by the clamped step. The residual
       should be the largest change of an entry of x
-    first-only: only the first entry is used
-    last-only: only the last entry is used
-    share-of-x: the residual is divided by the largest entry of x if this entry is above
-      1. Do not divide the residual
-    distance: the result is the distance to the minimiser. Compute the residual without
+    first-only: your code uses only the first entry. Use the entry that changes most
+    last-only: your code uses only the last entry. Use the entry that changes most
+    share-of-x: your code divides the residual by the largest entry of x if this entry
+      is above 1. Do not divide the residual
+    distance: your result is the distance to the minimiser. Compute the residual without
       the minimiser
-    newton-push: x moves by a Newton step. It should move by minus the gradient
-    jacobi-push: x moves by the gradient over the diagonal of H. It should move by minus
-      the gradient itself
-    limits-swapped: the lower and the upper bounds are swapped
-    two-pushes: x moves by twice the gradient
-    half-a-push: x moves by half the gradient
-    unit-box: the bounds are replaced by -1 and 1
-    which-one: the result is the index of the largest difference. Return the absolute
+    newton-push: in your code, x moves by a Newton step. It should move by minus the
+      gradient
+    jacobi-push: in your code, x moves by the gradient over the diagonal of H. It should
+      move by minus the gradient itself
+    limits-swapped: your code swaps the lower and the upper bounds. The lower bounds
+      come first
+    two-pushes: in your code, x moves by twice the gradient. It should move by minus the
+      gradient
+    half-a-push: in your code, x moves by half the gradient. It should move by minus the
+      gradient
+    unit-box: your code replaces the bounds by -1 and 1. Use the arguments lo and hi
+    which-one: your result is the index of the largest difference. Return the absolute
       value of this difference
-    clipped-for-the-difference: the new point is compared with the clamped x. Compare it
-      with x itself
-    clipped-first: x is clamped first, so the residual ignores the distance of x from
-      the box
-    slope-that-counts: the result is the largest entry of the gradient that no bound
+    clipped-for-the-difference: your code compares the new point with the clamped x.
+      Compare it with x itself
+    clipped-first: your code clamps x first, so the residual ignores the distance of x
+      from the box
+    slope-that-counts: your result is the largest entry of the gradient that no bound
       opposes. Clamp the step, because it may also meet the opposite bound
-    slope-that-counts 2: the result is the largest entry of the gradient that no bound
+    slope-that-counts 2: your result is the largest entry of the gradient that no bound
       opposes. Clamp the step, because it may also meet the opposite bound
-    signed-limit: the gradient of every entry at a bound is ignored. Ignore it only
-      where it pushes the entry out of the box
+    signed-limit: your code ignores the gradient of every entry at a bound. Ignore it
+      only where it pushes the entry out of the box
     """
     s = H @ x + f
     d = x - np.clip(x - s, lo, hi)

@@ -56,62 +56,63 @@ def exact(A, B, h, terms=59):
 
 @row.wrongs
 def _(M, stiffness, damping, h):
-    """slope-not-divided: the gravity stiffness is used as an acceleration. It gives a
-      torque, so multiply it by (M + h D)^-1
-    explicit-damping: the damping acts on the old velocity. In MuJoCo's implicitfast it
+    """slope-not-divided: your code uses the gravity stiffness as an acceleration. It
+      gives a torque, so multiply it by (M + h D)^-1
+    explicit-damping: your damping acts on the old velocity. In MuJoCo's implicitfast it
       acts on the new velocity, so add h D to M
-    damping-twice: the damping acts on the old and on the new velocity, (M + h D)^-1 (M
+    damping-twice: your damping acts on the old and on the new velocity, (M + h D)^-1 (M
       - h D). It should act on the new velocity only
-    damping-halved: half of the damping acts on the old velocity and half on the new
-      one. All of it acts on the new velocity
-    position-first: the old velocity moves the joints. In MuJoCo the new velocity moves
-      them: q + h times the new velocity
-    half-h-squared: the joints move by h v + h^2 a / 2. In MuJoCo the new velocity moves
-      them for the whole step
-    velocity-kept: the right half of A has no damping. The new velocity should contain
-      (M + h D)^-1 M v
-    velocity-kept 2: the lower right block of A is the identity. It should be (M + h
-      D)^-1 M, because the damping reduces the velocity
-    inverse-by-entry: each entry of M + h D is inverted separately. Use the matrix
+    damping-halved: half of your damping acts on the old velocity and half on the new
+      one. All of it should act on the new velocity
+    position-first: in your code, the old velocity moves the joints. In MuJoCo the new
+      velocity moves them, so use q + h times the new velocity
+    half-h-squared: in your code, the joints move by h v + h^2 a / 2. In MuJoCo the new
+      velocity moves them for the whole step
+    velocity-kept: the right half of your A has no damping. The new velocity should
+      contain (M + h D)^-1 M v
+    velocity-kept 2: the lower right block of your A is the identity. It should be (M +
+      h D)^-1 M, because the damping reduces the velocity
+    inverse-by-entry: your code inverts each entry of M + h D separately. Use the matrix
       inverse
-    position-kept: the upper left block of A is the identity. The gravity stiffness
+    position-kept: the upper left block of your A is the identity. The gravity stiffness
       changes the new velocity, which moves the joints within the same step
-    B-upper-zero: the upper half of B is 0. The input changes the new velocity, which
-      moves the joints within the same step
+    B-upper-zero: the upper half of your B is 0. The input changes the new velocity,
+      which moves the joints within the same step
     continuous: your A and B belong to the continuous-time system x' = A x + B u. The
       task asks for one step of h
     step-of-euler: your A and B belong to the explicit Euler step x + h x'. In MuJoCo
       the new velocity moves the joints, and the damping acts on the new velocity
     identity-missing: your `A` gives the change of the state. The new state also
-      contains x itself: add the identity
-    halves-swapped: positions and velocities are swapped. The state should be (q - q0,
-      qd)
-    A-rows-swapped: the upper and the lower rows of A are swapped. The position should
-      come first
-    A-columns-swapped: the left and the right columns of A are swapped. The position
+      contains x itself, so add the identity
+    halves-swapped: your code swaps positions and velocities. The state should be (q -
+      q0, qd)
+    A-rows-swapped: your code swaps the upper and the lower rows of A. The position
       should come first
-    B-swapped: the upper and the lower half of B are swapped. The position should come
-      first
+    A-columns-swapped: your code swaps the left and the right columns of A. The position
+      should come first
+    B-swapped: your code swaps the upper and the lower half of B. The position should
+      come first
     exponential: your A and B are the exact discretisation by the matrix exponential.
       MuJoCo's step is semi-implicit
     exponential 2: your A and B are the first terms of the matrix exponential. MuJoCo's
       step is semi-implicit
-    slope-implicit: the gravity stiffness acts on the new position. In MuJoCo it acts on
-      the old one
-    damping-not-divided: the damping is not divided by the mass, and it acts on the old
-      velocity. In MuJoCo the new velocity is (M + h D)^-1 M v
-    B-not-divided: B is not multiplied by (M + h D)^-1. The input is a torque, not an
-      acceleration
-    B-halved-below: the lower half of B is halved. The torque acts for the whole step
-    B-without-damping: B uses M^-1 without the damping. Use (M + h D)^-1
-    slope-halved-above: the stiffness is halved in the upper left block of A. The new
-      velocity moves the joints for the whole step
-    B-halved-above: the upper half of B is halved. The new velocity moves the joints for
-      the whole step
-    upper-right-h: the upper right block of A is h. The new velocity is (M + h D)^-1 M
-      v, and h multiplies it
-    upper-without-h: h is missing in the upper half of A. The joints move by h times the
-      new velocity
+    slope-implicit: your gravity stiffness acts on the new position. In MuJoCo it acts
+      on the old position
+    damping-not-divided: your code does not divide the damping by the mass, and it acts
+      on the old velocity. In MuJoCo the new velocity is (M + h D)^-1 M v
+    B-not-divided: your code does not multiply B by (M + h D)^-1. The input is a torque,
+      not an acceleration
+    B-halved-below: your code halves the lower half of B. The torque acts for the whole
+      step
+    B-without-damping: your B uses M^-1 without the damping. Use (M + h D)^-1
+    slope-halved-above: your code halves the stiffness in the upper left block of A. The
+      new velocity moves the joints for the whole step
+    B-halved-above: your code halves the upper half of B. The new velocity moves the
+      joints for the whole step
+    upper-right-h: the upper right block of your A is h. The new velocity is (M + h
+      D)^-1 M v, and h multiplies it
+    upper-without-h: your code omits h in the upper half of A. The joints move by h
+      times the new velocity
     """
     n = len(damping)
     one = np.eye(n)

@@ -65,31 +65,38 @@ def solved(J, e, weights, damp, lo, hi, right=None, box=box_qp):
 
 @row.wrongs(hidden={"stands-still-allowed": "no joint of the lab is beyond its range"})
 def _(J, e, weights, damping, dq_lo, dq_hi):
-    """clip-after: the result is Day 3's damped step, clamped. If one joint is held at
-      its bound, the other joints should compensate: solve the bounded problem
-    scaled-back: the whole step is scaled down until every joint is within its bounds.
-      The joints that are not at a bound could move further
-    not-limited: the bounds are missing
-    lower-only: only the lower bounds are used
-    upper-only: only the upper bounds are used
-    limits-mirrored: the lower bounds are replaced by minus the upper ones
-    limits-mirrored 2: the lower bounds are replaced by minus the upper ones
-    limits-mirrored 3: the upper bounds are replaced by minus the lower ones
-    limits-swapped: the lower and the upper bounds are swapped
-    limits-1: the bounds are replaced by -1 and 1
-    clipped-twice: the step of Day 3 is clamped, and a second step for the remaining
-      error is clamped as well. The second step should leave out the joints that are
+    """clip-after: your result is Day 3's damped step, clamped. If one joint is held at
+      its bound, the other joints should compensate, so solve the bounded problem
+    scaled-back: your code scales the whole step down until every joint is within its
+      bounds, but the joints that are not at a bound could move further
+    not-limited: your code ignores the bounds
+    lower-only: your code uses only the lower bounds. Use the upper bounds too
+    upper-only: your code uses only the upper bounds. Use the lower bounds too
+    limits-mirrored: your code replaces the lower bounds by minus the upper ones. Use
+      both arguments
+    limits-mirrored 2: your code replaces the lower bounds by minus the upper ones. Use
+      both arguments
+    limits-mirrored 3: your code replaces the upper bounds by minus the lower ones. Use
+      both arguments
+    limits-swapped: your code swaps the lower and the upper bounds. The lower bounds
+      come first
+    limits-1: your code replaces the bounds by -1 and 1. Use dq_lo and dq_hi
+    clipped-twice: your code clamps the step of Day 3, and it clamps a second step for
+      the remaining error as well. The second step should leave out the joints that are
       held
-    mean-weight-in-g: the linear term uses the mean of the weights. Each row of e has
+    mean-weight-in-g: your linear term uses the mean of the weights. Each row of e has
       its own weight
-    clip-after 2: the result is Day 3's damped step without the weights, clamped. If one
-      joint is held at its bound, the other joints should compensate: solve the bounded
-      problem
-    damping-weighted: the damping is multiplied by the mean of the weights
-    stands-still-allowed: the bounds are widened until they contain 0. A joint beyond
-      its range has to come back
-    translation-only: only the translation is used
-    rotation-only: only the rotation is used
+    clip-after 2: your result is Day 3's damped step without the weights, clamped. If
+      one joint is held at its bound, the other joints should compensate, so solve the
+      bounded problem
+    damping-weighted: your code multiplies the damping by the mean of the weights, but
+      the damping has no weight
+    stands-still-allowed: your code widens the bounds until they contain 0, but a joint
+      beyond its range should move back into it
+    translation-only: your code uses only the translation part of the error. Use all six
+      components
+    rotation-only: your code uses only the rotation part of the error. Use all six
+      components
     """
     d = damping**2
     lo, hi = dq_lo, dq_hi

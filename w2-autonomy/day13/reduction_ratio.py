@@ -16,17 +16,17 @@ row.spans(expected=(1e-5, 1e5), after=(lambda after: 1e6,))
 
 @row.wrongs
 def _(before, after, expected):
-    """sign: the sign is reversed. The measured reduction is before - after
-    difference: the result is the measured reduction minus the expected one. Return
+    """sign: your code reverses the sign. The measured reduction is before - after
+    difference: your result is the measured reduction minus the expected one. Return
       their ratio
-    after-over-before: the result is after / before, the fraction of the cost that
-      remains
-    percent: your ratio is in per cent: it is 100 times the expected value. Return a
+    after-over-before: your result is after / before, the fraction of the cost that
+      remains. Return the measured reduction over the expected one
+    percent: your ratio is in per cent, so it is 100 times the expected value. Return a
       fraction
     less-1: your function subtracts 1 from the ratio. The ratio should be 1 if the cost
       falls as expected
-    how-well-foretold: the result is 1 - |measured - expected| / |expected|. If the cost
-      falls more than expected, the ratio is above 1
+    how-well-foretold: your result is 1 - |measured - expected| / |expected|. If the
+      cost falls more than expected, the ratio should be above 1
     """
     saved = before - after
     ratio = saved / expected

@@ -27,32 +27,32 @@ def _(rng):
 
 @row.wrongs
 def _(P, A, B, Q, R):
-    """R-forgotten: R is missing in the gain, so torque has no cost. Solve with R + B^T
-      P B
-    R-once: the cost of the input is missing in P. The form (A - B K)^T P (A - B K) also
-      needs K^T R K
-    u-counted-twice: the cost of the input is counted twice. The form Q + A^T P (A - B
-      K) already contains K^T R K
-    K-of-the-new-P: the gain is computed from the P that you return. It needs the P that
-      you were given, the cost-to-go of the next state
-    gain-sign: K has the wrong sign. The minus sign is already in u = -K x
-    A-P-AT: `A P A^T` is used instead of A^T P A. The first propagates a covariance, the
-      second a cost-to-go
-    Q-for-P: Q is used instead of P in the gain
-    Q-in-the-gain: Q is added to P in the gain. The cost x . Q x of this step does not
-      depend on u
-    K-R-K-subtracted: K^T R K is subtracted. The input reduces the cost-to-go by K^T (R
-      + B^T P B) K
-    motion-forgotten: the cost-to-go of the next state is missing in P. Add (A - B K)^T
-      P (A - B K)
-    P-forgotten-and-R: the new P is Q + (A - B K)^T (A - B K). The old P between the two
-      factors is missing, and so is the cost K^T R K of the input
+    """R-forgotten: your code omits R in the gain, so torque has no cost. Solve with R +
+      B^T P B
+    R-once: your code omits the cost of the input in P. The form (A - B K)^T P (A - B K)
+      also needs K^T R K
+    u-counted-twice: your code counts the cost of the input twice. The form Q + A^T P (A
+      - B K) already contains K^T R K
+    K-of-the-new-P: your code computes the gain from the P that you return. It needs the
+      P that you were given, the cost-to-go of the next state
+    gain-sign: your K has the wrong sign. The minus sign is already in u = -K x
+    A-P-AT: your code uses `A P A^T` instead of A^T P A. The first propagates a
+      covariance, the second a cost-to-go
+    Q-for-P: your code uses Q instead of P in the gain
+    Q-in-the-gain: your code adds Q to P in the gain. The cost x . Q x of this step does
+      not depend on u
+    K-R-K-subtracted: your code subtracts K^T R K. The input reduces the cost-to-go by
+      K^T (R + B^T P B) K
+    motion-forgotten: your code omits the cost-to-go of the next state in P. Add (A - B
+      K)^T P (A - B K)
+    P-forgotten-and-R: your new P is Q + (A - B K)^T (A - B K). It lacks the old P
+      between the two factors and the cost K^T R K of the input
     K-K-subtracted: your code subtracts K^T K. It should subtract K^T (R + B^T P B) K,
       because the optimal input reduces the cost-to-go by this term
     K-K-added: your code adds K^T K. It should add K^T R K, which is the cost of the
       input
-    P-not-updated: P is returned unchanged
-    P-halved: P is half as large as it should be
+    P-not-updated: your code returns P unchanged. Return the cost-to-go one step earlier
+    P-halved: your P is half as large as it should be
     """
     F = B.T @ P @ A
     right, K = riccati_step(P, A, B, Q, R)
@@ -80,7 +80,9 @@ def _(P, A, B, Q, R):
     }
 
 
-@row.wrong("answers-swapped", "the two results are swapped. P comes first")
+@row.wrong(
+    "answers-swapped", "your code swaps the two results. The new P should come first"
+)
 def _(P, A, B, Q, R):
     return riccati_step(P, A, B, Q, R)[::-1]
 

@@ -32,18 +32,19 @@ def turned(angle, x, y):
 
 @row.wrongs
 def _(theta, observation):
-    """world-axes: the shift is added in the world frame. The shift is expressed in the
-      frame of the observed cube: rotate it by the yaw of the observation
-    turned-with-the-hand: the shift is rotated by the yaw of the hand. The shift is
-      expressed in the frame of the cube: rotate it by the yaw of the observation
-    clipped-after: the action is clipped. Clip theta before you use it
-    clipped-below-only: theta is clipped to LOW only. Clip it to HIGH, too
-    clipped-above-only: theta is clipped to HIGH only. Clip it to LOW, too
-    half-clipped: only the last three entries of theta are clipped
-    shift-forgotten: the shift is missing
-    x-shift-only: the shift along the y axis of the cube is missing
-    opening-and-height-swapped: height and opening are swapped
-    lift-from-the-floor: the height is added to the lift. The two are independent
+    """world-axes: your code adds the shift in the world frame. The shift is expressed
+      in the frame of the observed cube, so rotate it by the yaw of the observation
+    turned-with-the-hand: your code rotates the shift by the yaw of the hand. The shift
+      is expressed in the frame of the cube, so rotate it by the yaw of the observation
+    clipped-after: your code clips the action. Clip theta before you use it
+    clipped-below-only: your code clips theta to LOW only. Clip it to HIGH, too
+    clipped-above-only: your code clips theta to HIGH only. Clip it to LOW, too
+    half-clipped: your code clips only the last three entries of theta. Clip all of them
+    shift-forgotten: your code omits the shift
+    x-shift-only: your code omits the shift along the y axis of the cube
+    opening-and-height-swapped: your code swaps height and opening. The order should be
+      (x, y, yaw, height, opening, lift)
+    lift-from-the-floor: your code adds the height to the lift. The two are independent
     """
     t = np.clip(theta, LOW, HIGH)
     right = act(theta, observation)

@@ -58,30 +58,32 @@ def of_best(samples, best):
 
 @row.wrongs(hidden={"nan-is-zero": "no NaN of the lab has a score below 0 beside it"})
 def _(mean, std, noise, scores, elite):
-    """nan-first: a NaN is among the elite. np.argsort puts NaN last, so [::-1] puts it
-      first
-    nan-first 2: a NaN is among the elite. np.argsort puts NaN last, so [::-1] puts it
-      first
-    nan-first 3: a NaN is among the elite. np.argsort puts NaN last, so [::-1] puts it
-      first. It also reverses the order of equal scores
-    ties-last-first: of equal scores the last ones are kept. Keep the first ones
-    std-kept: std is unchanged. Return the standard deviation of the elite
-    n-minus-one: the standard deviation divides by elite - 1. Divide by elite
-    about-the-old-mean: the standard deviation is taken about the old mean. Take it
-      about the mean of the elite
-    one-spread-for-all: all parameters have the same standard deviation. Each should
-      have its own: use axis=0
-    best-left-out: the best sample is left out, and the elite begins with the second
-    nan-is-zero: a NaN is treated as a score of 0. It is worse than all other scores
-    elite-one-less: the elite has one sample too few
-    weighted: the elite samples are weighted by their rank. All should have the same
-      weight
-    weighted 2: the elite samples are weighted by their scores. All should have the same
-      weight
-    weighted 3: the mean is weighted by the scores. All elite samples should have the
+    """nan-first: your code takes a NaN into the elite. np.argsort puts NaN last, so
+      [::-1] puts it first
+    nan-first 2: your code takes a NaN into the elite. np.argsort puts NaN last, so
+      [::-1] puts it first
+    nan-first 3: your code takes a NaN into the elite. np.argsort puts NaN last, so
+      [::-1] puts it first. It also reverses the order of equal scores
+    ties-last-first: of equal scores, your code keeps the last ones. Keep the first ones
+    std-kept: your std is unchanged. Return the standard deviation of the elite
+    n-minus-one: your standard deviation divides by elite - 1. Divide by elite
+    about-the-old-mean: your code takes the standard deviation about the old mean. Take
+      it about the mean of the elite
+    one-spread-for-all: all parameters in your result have the same standard deviation.
+      Each should have its own, so use axis=0
+    best-left-out: your code leaves out the best sample, and its elite begins with the
+      second
+    nan-is-zero: your code treats a NaN as a score of 0. It is worse than all other
+      scores
+    elite-one-less: your elite has one sample too few. Does your slice end too early?
+    weighted: your code weights the elite samples by their rank. All should have the
       same weight
-    median: the mean is replaced by the median
-    halves-swapped: mean and std are swapped. The mean should come first
+    weighted 2: your code weights the elite samples by their scores. All should have the
+      same weight
+    weighted 3: your code weights the mean by the scores. All elite samples should have
+      the same weight
+    median: your code replaces the mean by the median. Return the mean of the elite
+    halves-swapped: your code swaps mean and std. The mean should come first
     """
     samples = mean + std * noise
     n = len(scores)

@@ -90,39 +90,42 @@ IN_ONE_UNIT = "all rows and weights of the lab are of similar size"
     hidden={"balance-of-all": IN_ONE_UNIT, "balance-without-weights": IN_ONE_UNIT}
 )
 def _(W, weights):
-    """rank-only: only the rank is tested. If all fingers are on one face, the rank is
-      6, but the fingers cannot pull
-    balance-only: the rank is not tested. Two opposite fingers balance, but the cube can
-      rotate about the line through them
-    balance-and-rank-5: rank 5 is accepted. A wrench has six components, so the rank
-      must be 6
-    zero-weights-do: a weight of 0 is accepted. Every weight must be above 0
-    sign-forgotten: weights below 0 are accepted. A finger cannot pull
-    some-weight-above-0: one weight above 0 is accepted. Every weight must be above 0
-    balance-forgotten: the condition W w = 0 is not tested
-    balance-absolute: the tolerance of W w is absolute, as in np.allclose(W @ weights,
+    """rank-only: your code tests only the rank. If all fingers are on one face, the
+      rank is 6, but the fingers cannot pull
+    balance-only: your code does not test the rank. Two opposite fingers balance, but
+      the cube can rotate about the line through them
+    balance-and-rank-5: your code accepts rank 5. A wrench has six components, so the
+      rank must be 6
+    zero-weights-do: your code accepts a weight of 0. Every weight must be above 0
+    sign-forgotten: your code accepts weights below 0, but a finger cannot pull
+    some-weight-above-0: your code accepts the weights if one of them is above 0. Every
+      weight must be above 0
+    balance-forgotten: your code does not test the condition W w = 0
+    balance-absolute: your tolerance of W w is absolute, as in np.allclose(W @ weights,
       0), so the answer depends on the units. It should be 1e-9 of the sum of |W_ij w_j|
-    balance-roughly: the tolerance of W w is 1e-4 of the sum of |W_ij w_j|. It should be
-      1e-9 of the sum
-    balance-of-all: one tolerance serves all rows of W w, made of their norm or of their
-      sum. Compare each row with 1e-9 of its own sum of |W_ij w_j|
-    first-row-only: only the first row of W w is tested. All six must be 0
-    balance-without-weights: the tolerance of W w is 1e-9 of the largest entry of each
+    balance-roughly: your tolerance of W w is 1e-4 of the sum of |W_ij w_j|. It should
+      be 1e-9 of the sum
+    balance-of-all: your code uses one tolerance for all rows of W w, made of their norm
+      or of their sum. Compare each row with 1e-9 of its own sum of |W_ij w_j|
+    first-row-only: your code tests only the first row of W w. All six must be 0
+    balance-without-weights: your tolerance of W w is 1e-9 of the largest entry of each
       row. It should be 1e-9 of the sum of |W_ij w_j|
     rank-absolute: your code compares the singular values with 1e-9, so the answer
       depends on the units. Compare them with 1e-9 times the largest singular value
     determinant: your code tests the rank with det(W W^T), so the answer depends on the
       units. Compare the singular values with 1e-9 times the largest one
-    nothing-may-be-left: W w is compared with 0 exactly. Rounding leaves about 1e-16
-    rank-by-rounding: the rank uses NumPy's default tolerance. It should be 1e-9 times
+    nothing-may-be-left: your code tests whether W w is exactly 0. Rounding leaves about
+      1e-16 even if the forces balance, so compare W w with a tolerance
+    rank-by-rounding: your rank uses NumPy's default tolerance. It should be 1e-9 times
       the largest singular value
-    weights-not-used: the columns of W are added without their weights
-    forces-only: only the forces are tested. The moments must balance, too
-    moments-only: only the moments are tested. The forces must balance, too
-    sum-of-all: all components of W w are added, so they can cancel. Test each row by
-      itself
-    always-true: the result is always True
-    always-false: the result is always False
+    weights-not-used: your code adds the columns of W without their weights. Test W w
+      instead
+    forces-only: your code tests only the forces. The moments must balance, too
+    moments-only: your code tests only the moments. The forces must balance, too
+    sum-of-all: your code adds all components of W w, so they can cancel. Test each row
+      by itself
+    always-true: your result is always True. Test the rank, the weights and W w
+    always-false: your result is always False. Test the rank, the weights and W w
     """
     s = np.linalg.svd(W, compute_uv=False)
     rank = np.sum(s > RANK * s[0])

@@ -42,33 +42,35 @@ def edges(n, mu, k, axis=None, *, a=None, t=None):
 
 @row.wrongs
 def _(normal, mu, k):
-    """axis-x: `a` is always along n x (1, 0, 0). Use the coordinate axis along which n
-      has the smallest absolute component, the first of equal ones
-    axis-z: `a` is always along n x (0, 0, 1). Use the coordinate axis along which n has
-      the smallest absolute component, the first of equal ones
-    axis-z 2: `a` is always along n x (0, 0, 1). Use the coordinate axis along which n
-      has the smallest absolute component, the first of equal ones
-    last-of-equals: if two components of n have the same absolute value, the last one is
-      used. Use the first
-    largest-axis: the coordinate axis with the largest absolute component of n is used.
-      Use the smallest one
-    signed-least: the coordinate axis with the smallest component of n is used. Compare
-      the absolute values
-    axis-x-n: the direction a is along axis x n. It should be along n x axis, otherwise
-      the edges begin on the opposite side
-    axis-itself: the direction a is the projection of the axis onto the tangent plane.
-      It should be along n x axis, which is perpendicular to your a
-    last-is-first: the last edge is equal to the first, because t ends at 2 pi. The last
-      t should be 2 pi (k - 1) / k
-    degrees: t is in degrees. np.cos and np.sin expect radians
-    from-one: i begins at 1. The first edge should have i = 0
-    mu-on-the-normal: mu multiplies the normal. It should multiply the tangential part
-    half-steps: t is shifted by half a step. The first edge should have t = 0
-    length-1: the edges are normalised. Their component along the normal should be 1
-    mu-is-an-angle: mu is used as the angle of the cone. The coefficient of friction is
-      already the tangent of that angle
-    normal-left-in-mu: mu multiplies the normal as well. It should multiply the
-      tangential part alone
+    """axis-x: your `a` is always along n x (1, 0, 0). Use the coordinate axis along
+      which n has the smallest absolute component, the first of equal ones
+    axis-z: your `a` is always along n x (0, 0, 1). Use the coordinate axis along which
+      n has the smallest absolute component, the first of equal ones
+    axis-z 2: your `a` is always along n x (0, 0, 1). Use the coordinate axis along
+      which n has the smallest absolute component, the first of equal ones
+    last-of-equals: if two components of n have the same absolute value, your code uses
+      the last one. Use the first
+    largest-axis: your code uses the coordinate axis with the largest absolute component
+      of n. Use the axis with the smallest one
+    signed-least: your code uses the coordinate axis with the smallest component of n.
+      Compare the absolute values
+    axis-x-n: your direction `a` is along axis x n. It should be along n x axis,
+      otherwise the edges begin on the opposite side
+    axis-itself: your direction `a` is the projection of the axis onto the tangent
+      plane. It should be along n x axis, which is perpendicular to your `a`
+    last-is-first: your last edge is equal to the first, because t ends at 2 pi. The
+      last t should be 2 pi (k - 1) / k
+    degrees: your t is in degrees, but np.cos and np.sin expect radians
+    from-one: your i begins at 1. The first edge should have i = 0
+    mu-on-the-normal: your code multiplies the normal by mu. It should multiply the
+      tangential part by mu
+    half-steps: your code shifts t by half a step. The first edge should have t = 0
+    length-1: your code normalises the edges. Their component along the normal should be
+      1
+    mu-is-an-angle: your code uses mu as the angle of the cone. The coefficient of
+      friction is already the tangent of that angle
+    normal-left-in-mu: your code also multiplies the normal by mu. It should multiply
+      only the tangential part by mu
     in-columns: your matrix has one edge per column. It should have one edge per row
     """
     t = 2 * np.pi * np.arange(k) / k

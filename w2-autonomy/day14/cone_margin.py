@@ -25,40 +25,40 @@ def _(rng):
 
 @row.wrongs
 def _(force, normal, mu):
-    """sign: the sign is reversed. A contact inside its friction cone has a margin above
-      0
-    pyramid: the largest component of f_t is used as |f_t|. Use the Euclidean norm,
-      because the cone is circular
-    one-norm: the sum of the absolute components of f_t is used as |f_t|. Use the
+    """sign: your code reverses the sign. A contact inside its friction cone has a
+      margin above 0
+    pyramid: your code uses the largest component of f_t as |f_t|. Use the Euclidean
+      norm, because the cone is circular
+    one-norm: your code uses the sum of the absolute components of f_t as |f_t|. Use the
       Euclidean norm, because the cone is circular
-    force-length-for-press: the norm of the whole force is used as f_n. The normal force
-      is the component along the normal
-    force-length-for-press 2: the norm of the whole force is used as f_n. The normal
-      force is the component along the normal
-    one-length-for-all: one norm is taken over all contacts. Each contact has its own:
-      use axis=1
-    mu-is-an-angle: mu is used as the angle of the cone. The coefficient of friction is
-      already the tangent of that angle
-    normal-is-z 3: the z component of the force is used as f_n. The normal force is the
-      component along the contact's own normal
-    normal-is-z: the normal (0, 0, 1) is used for every contact. Each contact has its
-      own
-    normal-is-z 2: the normal (0, 0, 1) is used for every contact. Each contact has its
-      own
-    pull-counts: the absolute value of f_n is used for a contact that pulls. A finger
-      cannot pull, so keep the sign of f_n
-    pull-limited: a negative f_n is replaced by 0. A finger cannot pull, so the margin
-      of a pull is below 0
-    ratio: the result is mu - |f_t| / f_n. The margin should be a force: mu f_n - |f_t|
-    ratio 2: the result is mu f_n / |f_t|. The margin should be a force: mu f_n - |f_t|
-    ratio 3: the result is |f_t| / (mu f_n). The margin should be a force: mu f_n -
+    force-length-for-press: your code uses the norm of the whole force as f_n. The
+      normal force is the component along the normal
+    force-length-for-press 2: your code uses the norm of the whole force as f_n. The
+      normal force is the component along the normal
+    one-length-for-all: your code takes one norm over all contacts. Each contact has its
+      own norm, so use axis=1
+    mu-is-an-angle: your code uses mu as the angle of the cone. The coefficient of
+      friction is already the tangent of that angle
+    normal-is-z 3: your code uses the z component of the force as f_n. The normal force
+      is the component along the contact's own normal
+    normal-is-z: your code uses the normal (0, 0, 1) for every contact. Each contact has
+      its own normal
+    normal-is-z 2: your code uses the normal (0, 0, 1) for every contact. Each contact
+      has its own normal
+    pull-counts: your code uses the absolute value of f_n for a contact that pulls. A
+      finger cannot pull, so keep the sign of f_n
+    pull-limited: your code replaces a negative f_n by 0. A finger cannot pull, so the
+      margin of a pull is below 0
+    ratio: your result is mu - |f_t| / f_n. The margin should be a force: mu f_n - |f_t|
+    ratio 2: your result is mu f_n / |f_t|. The margin should be a force: mu f_n - |f_t|
+    ratio 3: your result is |f_t| / (mu f_n). The margin should be a force: mu f_n -
       |f_t|
-    mu-times-along: mu multiplies |f_t|. It should multiply f_n
-    normal-into-the-finger: f_n has the wrong sign. The normal should point out of the
-      finger, into the cube
-    margin-of-the-first: every contact has the margin of the first. Each should have its
-      own
-    over-the-cone: the result is the distance from the surface of the cone. The margin
+    mu-times-along: your code multiplies |f_t| by mu. It should multiply f_n by mu
+    normal-into-the-finger: your f_n has the wrong sign. The normal should point out of
+      the finger, into the cube
+    margin-of-the-first: every contact in your result has the margin of the first. Each
+      contact should have its own margin
+    over-the-cone: your result is the distance from the surface of the cone. The margin
       should not be divided by sqrt(1 + mu^2)
     """
     press = np.sum(force * normal, axis=1)

@@ -25,23 +25,25 @@ def stacked(blocks):
 
 @row.wrongs
 def _(points, centre):
-    """centre-forgotten: the moments are about the origin of the world frame. They
+    """centre-forgotten: your moments are about the origin of the world frame. They
       should be about the centre
-    moment-sign: the moments have the wrong sign. The lever arm is p - c, and its skew
-      matrix is not transposed
-    halves-swapped: force and moment are swapped. A wrench should be (moment; force)
-    arm-on-the-diagonal: p - c is on the diagonal. A cross product needs the skew matrix
-    added-up: the blocks of all points are added. Each point should have three columns
-      of its own
-    components-together: the columns are sorted by component: all x, all y, all z. The
+    moment-sign: your moments have the wrong sign. The lever arm should be p - c, and
+      its skew matrix should not be transposed
+    halves-swapped: your code swaps force and moment. A wrench should be (moment, force)
+    arm-on-the-diagonal: your code puts p - c on the diagonal, but a cross product needs
+      the skew matrix
+    added-up: your code adds the blocks of all points. Each point should have three
+      columns of its own
+    components-together: your code sorts the columns by component, with all x first. The
       three columns of a contact should be adjacent
-    moments-only: the lower three rows are 0. They should contain the forces
-    forces-only: the upper three rows are 0. They should contain the moments
-    about-the-mean: the moments are about the mean of the points. They should be about
+    moments-only: your lower three rows are 0. They should contain the forces
+    forces-only: your upper three rows are 0. They should contain the moments
+    about-the-mean: your moments are about the mean of the points. They should be about
       the centre
-    forces-negative: the forces have the wrong sign. They should act on the cube, not on
-      the fingers
-    forces-over-n: the forces are divided by the number of points
+    forces-negative: your forces have the wrong sign. They should act on the cube, not
+      on the fingers
+    forces-over-n: your code divides the forces by the number of points. Leave them
+      unchanged
     """
     arms = points - centre
     one = np.eye(3)

@@ -78,36 +78,38 @@ def _(rng):
 
 @row.wrongs(hidden={"at-the-line": "no margin of the lab is exactly at the limit"})
 def _(finger_position, force, normal, mu, fraction, step):
-    """all-must-slip: the pads close only if all contacts nearly slip. One contact is
-      enough
-    at-the-line: the pads also close if a margin is equal to fraction times mu f_n.
-      Close only if a margin is smaller
-    one-minus-the-share: the margin is compared with (1 - fraction) mu f_n. Compare it
-      with fraction times mu f_n
-    high-for-low: the limit of the finger position is HIGH[4], so the pads open. It
-      should be LOW[4]
-    smaller-for-larger: the smaller of the new position and LOW[4] is returned. Return
-      the larger of the two
-    always: the pads close at every call. Close only if a contact nearly slips
-    share-in-newtons: the margin is compared with fraction itself. The margin is in
-      newtons: multiply fraction by mu f_n
-    share-of-the-force: the margin is compared with a fraction of the norm of the force.
+    """all-must-slip: your pads close only if all contacts nearly slip. One contact that
+      nearly slips is enough
+    at-the-line: your pads also close if a margin is equal to fraction times mu f_n.
+      Close them only if a margin is smaller
+    one-minus-the-share: your code compares the margin with (1 - fraction) mu f_n.
       Compare it with fraction times mu f_n
-    share-of-the-force 2: the margin is compared with fraction times mu and the norm of
-      the force. Use f_n, the component along the normal
-    stopped-at-0: the finger position stops at 0. Its limit should be LOW[4]
-    stopped-too-early: a step that would go beyond LOW[4] is left out. It should end at
-      LOW[4]
-    outside-only: the pads close only if a margin is below 0. Then the contact slips
-      already
-    the-other-way: the comparison is reversed, so the pads close if a margin is large
-    closes-to-the-limit: the pads close to the limit at once. Subtract one step per call
-    a-step-a-contact: one step is subtracted for each contact that nearly slips.
+    high-for-low: your limit of the finger position is HIGH[4], so the pads open. It
+      should be LOW[4]
+    smaller-for-larger: your code returns the smaller of the new position and LOW[4].
+      Return the larger of the two
+    always: your pads close at every call. Close them only if a contact nearly slips
+    share-in-newtons: your code compares the margin with fraction itself. The margin is
+      in newtons, so multiply fraction by mu f_n
+    share-of-the-force: your code compares the margin with a fraction of the norm of the
+      force. Compare it with fraction times mu f_n
+    share-of-the-force 2: your code compares the margin with fraction times mu and the
+      norm of the force. Use f_n, the component along the normal
+    stopped-at-0: your finger position stops at 0. Its limit should be LOW[4]
+    stopped-too-early: your code leaves out a step that would go beyond LOW[4]. The step
+      should end at LOW[4]
+    outside-only: your pads close only if a margin is below 0, but then the contact
+      slips already
+    the-other-way: your code reverses the comparison, so the pads close if a margin is
+      large
+    closes-to-the-limit: your pads close to the limit at once. Subtract one step per
+      call
+    a-step-a-contact: your code subtracts one step for each contact that nearly slips.
       Subtract only one step per call
-    sum-of-margins: the sum of the margins is compared. One contact that nearly slips is
-      enough
-    mean-of-margins: the mean of the margins is compared. One contact that nearly slips
-      is enough
+    sum-of-margins: your code compares the sum of the margins. One contact that nearly
+      slips is enough
+    mean-of-margins: your code compares the mean of the margins. One contact that nearly
+      slips is enough
     """
     margin = cone_margin(force, normal, mu)
     press = np.sum(force * normal, axis=1)

@@ -1,218 +1,254 @@
 """Day 14 in the inspector: the tab Touch.
 
-Two pads lift a cube. The student's `cone_edges` and `cone_margin` compute the cones and
-the smallest margin over time, and their `grip_reflex_step` may close the pads.
-Below, their `act`, `reward` and `cem_step` learn a policy, generation by generation.
-The cubes that it holds appear as dots over friction and mass.
+Two fingers lift a cube, with a constant opening and with the student's
+`grip_reflex_step`. Their `cone_edges` and `cone_margin` compute the cones and the
+smallest margin over time. Below, their `act`, `reward` and `cem_step` learn a policy,
+generation by generation, and the cubes that it holds appear over friction and mass.
 """
 
+from functools import cache, partial
 from typing import NamedTuple
 
 import numpy as np
 
+from labkit.inspector import declared as ui
 from labkit.inspector import words
-from labkit.inspector.page import Page
-from labkit.inspector.tab import Tab
+from labkit.inspector.canvas import Canvas
 from labkit.lesson.day import find_day
 from labkit.lesson.lab_module import lab_of
-from robo47 import grasp, policy, se3
+from robo47 import grasp, panda, policy, se3
 from robo47.checks import Array
 
 import day14_mujoco
 
 LAB = lab_of(find_day(14))  # its seeds, its start, what is held
-AGAIN, ROUND, TRY, NEW = "lift again", "one generation", "test 20 cubes", "start over"
 TRIED = 20
 ENTRY = "in one entry"
-UNITS = {"cone_margin": "N", "grip_reflex_step": "m", "observe": ENTRY, "act": ENTRY,
-         "cem_step": ENTRY}  # fmt: skip
-ROUND_CONE = 12  # edges of a cone that is drawn
+EDGES = 12  # of a cone that is drawn
 LONG = 0.008  # m of an arrow, for 1 N
-SIZE = (240, 360)  # px of the dots' picture
-FRICTION, GRAMS = (0.1, 1.0), (0.0, 300.0)  # its ends
-BLUE, RED, BLACK, PAPER = (0, 114, 178), (213, 94, 0), (33, 37, 41), (250, 250, 250)
-PLACES = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-EDGES = [(i, j) for i in range(8) for j in range(i) if (i ^ j) in (1, 2, 4)]
+SLOWER = 3.0  # times slower than real time
+SHOWN = ("with your grip_reflex_step", "with a constant opening")
 FULL = np.maximum(np.abs(LAB.LOW), np.abs(LAB.HIGH))
+NORMALS = np.array([[0, -1.0, 0], [0, 1.0, 0]])  # of the pads, into the cube
+DOWNWARDS = np.diag([-1.0, 1.0, -1.0])  # the hand's axes in the world
+_, Y, Z = np.eye(3)
+PAD, FINGER = (0.0055, 0.0445), 0.0584  # m: a pad on its finger, a finger on the hand
+
+bare = cache(partial(panda.load, "panda"))
+dressed = partial(panda.load, "panda", meshes=True)
 
 
 class Moment(NamedTuple):
-    """What an episode was like 10 ms long."""
+    """The state of an episode 10 ms long."""
 
     t: float  # s
-    cube: Array  # m, (3,), of its middle
+    cube: Array  # T_world_cube, (4, 4)
     pads: Array  # m, (2, 3), of their middles
     felt: day14_mujoco.Felt
 
 
 class Lifted(NamedTuple):
-    """An episode, and what the student's functions say of it."""
+    """An episode, and the results of the student's functions for it."""
 
-    asked: tuple[float, float, float, bool]  # what the sliders said
     moments: list[Moment]
-    shown: int  # which of them is drawn
-    yours: list[Array]  # margins, of each moment with a contact, N
-    right: list[Array]  # those of the library
-    edges: Array  # of both cones, (2 * ROUND_CONE, 3)
+    margins: list[float]  # the smallest of each moment with a contact, N
+    truth: list[float]  # by the library
     height: float  # m, at the end
     newtons: float  # per pad, at the end
 
+    @property
+    def held(self) -> bool:
+        """Whether the cube is in the air at the end."""
+        return bool(LAB.HELD < self.height <= LAB.CAP)
 
-class Touch(Tab):
+    def says(self) -> str:
+        """Return how it ended."""
+        said = "held" if self.held else "not held"
+        grip = f"grip force {self.newtons:.1f} N per pad"
+        return f"the cube is {said}, at {1000 * self.height:z.0f} mm ({grip})."
+
+    def felt(self) -> list[Moment]:
+        """Return the moments in which the pads touch the cube."""
+        return [one for one in self.moments if len(one.felt.mu)]
+
+
+class Seen(NamedTuple):
+    """Both episodes of a cube, and the cones."""
+
+    runs: dict[str, Lifted]  # by SHOWN
+    edges: Array  # of both cones, (2 * EDGES, 3)
+
+
+class Touch(ui.Declared):
     """What fingers feel, and what a policy of six numbers has learned."""
 
     title = "Touch"
-    wide = True
-    camera = ((0.34, -0.14, 0.16), (0.0, 0.075, 0.05))
+    library = {**vars(grasp), **vars(policy)}
+    functions = {
+        "cone_margin": "N", "cone_edges": "", "grip_reflex_step": "m", "observe": ENTRY,
+        "act": ENTRY, "reward": "", "cem_step": ENTRY, "success_rate": "",
+    }  # fmt: skip
+    camera = ((0.62, -0.26, 0.27), (0.0, 0.12, 0.04))
 
-    def __init__(self, page: Page) -> None:
-        """Lift the first cube, and forget what was learned."""
-        super().__init__(page)
-        page.hide_arm()
+    mu = ui.slider("friction", 0.1, 1, 0.3, "", 0.05)
+    grams = ui.slider("mass", 20, 300, 220.0, "g", 10)
+    squeeze = ui.slider("grip force", 0.5, 8, 3.0, "N", 0.5)
+    run = ui.choice("the fingers close", SHOWN)
+    does = ui.buttons(
+        "lift again", "one generation", "test 20 cubes", "start over", then="press"
+    )
+    plot = ui.panel.plot(
+        ["the library", "yours, with your reflex", "yours, constant opening"],
+        y="smallest margin, N", height=150, below=1,
+    )  # fmt: skip
+    bars = ui.panel.bars(
+        [name.partition(",")[0] for name in LAB.NUMBERS], np.ones(6), "",
+        "policy, relative to its limits (marks: one standard deviation more)", "both",
+    )  # fmt: skip
+    learned = ui.panel.html()
+    image = ui.panel.image(np.zeros((240, 360, 3)), "the tested cubes")
+    key = ui.panel.key({"held": "blue", "dropped": "red", "limit": "white"})
+    hand = ui.panel.robot(bare, dressed)
+    box = ui.scene.box(np.full(3, day14_mujoco.HALF), "orange", 0.75, legend="the cube")
+    cones = ui.yours.lines(ui.NOWHERE, "green", 2, legend="your friction cone")
+    arrows = ui.scene.arrows(ui.NOWHERE, "red", 0.0015, legend="force on the cube")
+
+    def prepare(self) -> None:
         self.model, self.data = day14_mujoco.hand()
-        self.mu = 0.3
-        self.grams = 220.0
-        self.squeeze = 3.0
-        self.feels = False
-        self.own = page.own({**vars(grasp), **vars(policy)}, units=UNITS)
-        page.slider("friction", 0.1, 1, self.mu, self.sets("mu"), unit="", step=0.05)
-        page.slider("mass", 20, 300, self.grams, self.sets("grams"), unit="g", step=10)
-        page.slider("grip force", 0.5, 8, self.squeeze, self.sets("squeeze"), unit="N",
-                    step=0.5)  # fmt: skip
-        page.tick("use your grip_reflex_step", self.sets("feels"))
-        self.text = page.html()
-        curves = ["yours", "the library's"]
-        self.plot = page.plot(curves, y="smallest margin, N", height=130)
-        page.buttons([AGAIN, ROUND, TRY, NEW], self.press)
-        self.bars = page.bars(
-            [name.partition(",")[0] for name in LAB.NUMBERS], np.ones(6), "",
-            "theta, relative to its limit; marks: one std more", "both",
-        )  # fmt: skip
-        self.learned = page.html()
-        self.image = page.image(self.dots([]), "friction to the right, mass upwards")
-        page.draw.lines(floor(), "grey")
-        self.box = page.draw.lines(np.zeros((12, 2, 3)), "orange", 3)
-        self.pads = page.draw.lines(np.zeros((24, 2, 3)), "black", 3)
-        self.cones = page.draw.lines(np.zeros((2 * ROUND_CONE, 2, 3)), "green", 2)
-        self.arrows = page.draw.arrows(np.zeros((2, 2, 3)), "red", 0.0015)
-        page.legend({"force on the cube": "red", "your cone": "green"})
+        self.learning = self.page.jobs_apart()
         self.start_over()
-        self.on_move(page.q)
 
     # One cube
 
-    def on_move(self, q: Array) -> None:
-        """Lift it again: a slider was moved, or the file may be another."""
-        asked = (self.mu, self.grams, self.squeeze, self.feels)
-        self.page.job(lambda: self.lift(*asked), self.show)
+    def ask(self, fns, at) -> Seen:
+        def reflex(opening: float, felt: day14_mujoco.Felt) -> float:
+            if not len(felt.mu):
+                return opening
+            return float(fns.grip_reflex_step(opening, *felt[1:], LAB.SHARE, LAB.CLOSE))
 
-    def lift(self, mu: float, grams: float, squeeze: float, feels: bool) -> Lifted:
-        """Return an episode, and what the student's functions say of each moment."""
-        cube = day14_mujoco.Cube(0.0, 0.0, 0.0, grams / 1000, mu)
-        opening = day14_mujoco.HALF - squeeze / day14_mujoco.SPRING
+        some = zip(SHOWN, (reflex, None), strict=True)
+        runs = {name: self.lifted_one(fns, at, touch) for name, touch in some}
+        cones = [("cone_edges", normal, at.mu, EDGES) for normal in NORMALS]
+        return Seen(runs, np.vstack(fns.many(*cones)))
+
+    def lifted_one(self, fns, at, touch) -> Lifted:
+        """Return an episode, and what the functions compute for each moment."""
+        cube = day14_mujoco.Cube(0.0, 0.0, 0.0, at.grams / 1000, at.mu)
+        opening = day14_mujoco.HALF - at.squeeze / day14_mujoco.SPRING
         action = np.array([0, 0, 0, 0.02, opening, 0.1])
-        last = opening
-
-        def touch(opening: float, felt: day14_mujoco.Felt) -> float:
-            nonlocal last
-            if len(felt.mu):
-                told = (*felt[1:], LAB.SHARE, LAB.CLOSE)
-                last = float(self.own.grip_reflex_step(opening, *told))
-            return last
-
-        given = (self.model, self.data, cube, action, touch if feels else None)
-        moments = [self.moment() for _ in day14_mujoco.episode(*given)]
+        moments, last = [], opening
+        for told in day14_mujoco.episode(self.model, self.data, cube, action, touch):
+            moments.append(self.moment())
+            last = told
         felt = [one.felt for one in moments if len(one.felt.mu)]
-        calls = [("cone_margin", one.force, one.normal, one.mu) for one in felt]
-        right = [grasp.cone_margin(one.force, one.normal, one.mu) for one in felt]
-        shown = round((day14_mujoco.CLOSED + 0.03) / 0.01)
-        normals = np.array([[0, -1.0, 0], [0, 1.0, 0]])  # of the pads, into the cube
-        cones = [("cone_edges", normal, mu, ROUND_CONE) for normal in normals]
-        *yours, left, other = self.own.many(*calls, *cones)
+        asked = [(one.force, one.normal, one.mu) for one in felt]
+        yours = fns.many(*(("cone_margin", *given) for given in asked))
         return Lifted(
-            (mu, grams, squeeze, feels),
             moments,
-            shown,
-            [np.asarray(one) for one in yours],
-            right,
-            np.vstack([left, other]),
+            [float(np.min(one)) for one in yours],
+            [float(np.min(grasp.cone_margin(*given))) for given in asked],
             day14_mujoco.height(self.data),
             day14_mujoco.SPRING * (day14_mujoco.HALF - last),
         )
 
     def moment(self) -> Moment:
-        """Return what is so now."""
+        """Return the state of the simulation now."""
         pads = [self.data.geom(name).xpos.copy() for name in ("left", "right")]
-        cube = self.data.body("cube").xpos.copy()
+        body = self.data.body("cube")
+        T = se3.make_T(body.xmat.reshape(3, 3), body.xpos)
         felt = day14_mujoco.felt(self.model, self.data)
-        return Moment(self.data.time, cube, np.array(pads), felt)
+        return Moment(self.data.time, T, np.array(pads), felt)
 
-    def show(self, lifted: Lifted) -> None:
-        """Show the moment when it rises, and how it went."""
-        if lifted.asked != (self.mu, self.grams, self.squeeze, self.feels):
-            return  # the sliders have been moved meanwhile
-        times = [one.t for one in lifted.moments if len(one.felt.mu)]
-        least = [[np.min(one) for one in some] for some in (lifted.yours, lifted.right)]
-        if times:
-            self.plot.show(times, least)
-        now = lifted.moments[lifted.shown]
-        self.box.points = boxed(now.cube, np.full(3, day14_mujoco.HALF))
-        half = np.array(day14_mujoco.PAD_HALF)
-        self.pads.points = np.vstack([boxed(pad, half) for pad in now.pads])
-        self.draw_forces(now, lifted.edges)
-        held = LAB.HELD < lifted.height <= LAB.CAP
-        said = "held" if held else "not held"
-        off = np.abs(np.subtract(*least)).max(initial=0.0)
-        good = off < 1e-6
-        lines = [
-            (f"finally the cube is {said} at {1000 * lifted.height:z.0f} mm", "held",
-             ""),
-            (f"grip force {lifted.newtons:.1f} N per pad; "
-             f"at rest it needs {weight(lifted):.1f} N", "press", ""),
-            (f"your smallest margin, while closed: {late(times, least[0]):z.2f} N; "
-             f"by the library {late(times, least[1]):z.2f} N", "margin",
-             "good" if good else "bad"),
+    def show(self, yours: Seen, right: Seen) -> None:
+        self.seen = yours
+        best = right.runs[SHOWN[0]]
+        curves = [(best.felt(), best.truth)]
+        curves += [(one.felt(), one.margins) for one in yours.runs.values()]
+        at = sorted({one.t for felt, _ in curves for one in felt})
+        ys = [
+            np.interp(at, [one.t for one in felt], m, np.nan, np.nan)
+            if felt else np.full(len(at), np.nan)
+            for felt, m in curves
         ]  # fmt: skip
-        self.text.content = "".join(words.line(*one) for one in lines)
+        if at:
+            self.plot.show(at, ys)
+        self.frame(SLOWER * (day14_mujoco.CLOSED + 0.03))
+        self.loop.stop()
+        if not self.emptied:
+            self.loop.start()
 
-    def draw_forces(self, now: Moment, edges: Array) -> None:
+    def begin(self) -> None:
+        """Lift again once the answers are there; `show` plays them."""
+
+    def frame(self, seconds: float) -> bool:
+        moments = self.seen.runs[self.run].moments
+        i = min(int(seconds / SLOWER / 0.01), len(moments) - 1)
+        now = moments[i]
+        middle = se3.make_T(DOWNWARDS, now.pads.mean(axis=0) + (PAD[1] + FINGER) * Z)
+        turned = (DOWNWARDS, DOWNWARDS @ se3.Rz(np.pi))
+        fingers = [
+            se3.make_T(R, pad - side * PAD[0] * Y + PAD[1] * Z)
+            for R, pad, side in zip(turned, now.pads, (1, -1), strict=True)
+        ]
+        self.hand.pose(
+            {"hand": middle, "left_finger": fingers[0], "right_finger": fingers[1]}
+        )
+        self.box.position = now.cube[:3, 3]
+        self.box.wxyz = se3.R_to_quat(now.cube[:3, :3])
+        self.draw_forces(now)
+        return i < len(moments) - 1
+
+    def draw_forces(self, now: Moment) -> None:
         """Draw each pad's force on the cube, and the student's cone of that size."""
-        arrows = np.zeros((2, 2, 3))
-        cones = np.zeros((2, ROUND_CONE, 2, 3))
+        arrows, cones = np.zeros((2, 2, 3)), np.zeros((2, EDGES, 2, 3))
         for k, side in enumerate((1, -1)):
-            some = side * (now.felt.points[:, 1] - now.cube[1]) > 0
+            some = side * (now.felt.points[:, 1] - now.cube[1, 3]) > 0
             if not some.any():  # it has left that pad
                 continue
             at = now.felt.points[some].mean(axis=0)
             force = now.felt.force[some].sum(axis=0)
             arrows[k] = at, at + LONG * force
             press = max(-side * force[1], 0.0)
-            cone = edges[k * ROUND_CONE : (k + 1) * ROUND_CONE]
             cones[k, :, 0] = at
-            cones[k, :, 1] = at + LONG * press * cone
-        self.arrows.points = arrows.astype(np.float32)
-        self.cones.points = cones.reshape(-1, 2, 3).astype(np.float32)
+            edges = self.seen.edges[k * EDGES : (k + 1) * EDGES]
+            cones[k, :, 1] = at + LONG * press * edges
+        self.arrows.points, self.cones.points = arrows, cones.reshape(-1, 2, 3)
+
+    def says(self, yours: Seen, right: Seen):
+        reflex, constant = (yours.runs[name] for name in SHOWN)
+        yield f"With a constant opening {constant.says()}", None
+        yield f"With your grip_reflex_step {reflex.says()}", "grip_reflex_step"
+        needs = self.grams / 1000 * LAB.G / 2 / self.mu
+        yield f"To hold the cube at rest, a pad needs {needs:.1f} N.", None
+        one = yours.runs[self.run]
+        late = [k for k, m in enumerate(one.felt()) if m.t > day14_mujoco.CLOSED]
+        mine, best = (
+            min((some[k] for k in late), default=np.nan)
+            for some in (one.margins, one.truth)
+        )
+        says = f"Your smallest margin with closed pads is {mine:z.2f} N; "
+        yield f"{says}by the library {best:z.2f} N.", "cone_margin"
 
     # Six numbers
 
-    def press(self, name: str) -> None:
+    def press(self) -> None:
         """Lift again, learn one generation, test some cubes, or start over."""
-        if name == AGAIN:
-            self.on_move(self.page.q)
-        elif name == NEW:
+        if self.does == "lift again":
+            self.request()
+        elif self.does == "start over":
             self.start_over()
         else:
-            work = self.learn_round if name == ROUND else self.try_cubes
-            self.page.job(work, lambda _: self.show_policy())
+            once = self.does == "one generation"
+            work = self.learn_round if once else self.try_cubes
+            self.learning.want(work, lambda _: self.show_policy())
 
     def start_over(self) -> None:
-        """Forget what was learned, and all tries."""
+        """Forget the policy and all tests."""
         self.rng = np.random.default_rng(LAB.SEED)
         self.fresh = np.random.default_rng(LAB.CUBES_SEED)
-        self.mean = LAB.START
-        self.std = LAB.SPREAD
-        self.rounds = 0
+        self.mean, self.std, self.rounds = LAB.START, LAB.SPREAD, 0
         self.tries: list[tuple[day14_mujoco.Cube, bool]] = []
+        self.rate = np.zeros(3)
         self.show_policy()
 
     def lifted(self, thetas, cubes, noise) -> Array:
@@ -220,11 +256,11 @@ class Touch(Tab):
         T = [se3.make_T(se3.Rz(one.yaw), (one.x, one.y, 0.02)) for one in cubes]
         looks = [("observe", *some) for some in zip(T, noise, strict=True)]
         seen = self.own.many(*looks)
-        acts = [("act", theta, one) for theta in thetas for one in seen]
-        actions = self.own.many(*acts)
+        actions = self.own.many(*(("act", th, one) for th in thetas for one in seen))
+        model, data = day14_mujoco.hand()  # its own: a cube may be lifted meanwhile
         both = zip(actions, list(cubes) * len(thetas), strict=True)
         heights = [
-            day14_mujoco.lift(self.model, self.data, cube, np.asarray(action))
+            day14_mujoco.lift(model, data, cube, np.asarray(action))
             for action, cube in both
         ]
         return np.reshape(heights, (len(thetas), len(cubes)))
@@ -235,9 +271,8 @@ class Touch(Tab):
         cubes = day14_mujoco.cubes(LAB.TRAINED_ON, self.rng, LAB.ROUGH)
         seen = LAB.NOISE * self.rng.normal(size=(LAB.TRAINED_ON, 3))
         heights = self.lifted(self.mean + self.std * noise, cubes, seen)
-        worth = self.own.many(*[("reward", h, LAB.TARGET, LAB.CAP) for h in heights])
-        scores = np.mean(worth, axis=1)
-        step = (self.mean, self.std, noise, scores, LAB.ELITE)
+        worth = self.own.many(*(("reward", h, LAB.TARGET, LAB.CAP) for h in heights))
+        step = (self.mean, self.std, noise, np.mean(worth, axis=1), LAB.ELITE)
         self.mean, self.std = self.own.cem_step(*step)
         self.rounds += 1
 
@@ -250,71 +285,36 @@ class Touch(Tab):
         self.rate = self.own.success_rate(np.array([good for _, good in self.tries]))
 
     def show_policy(self) -> None:
-        """Show the six numbers and all dots."""
+        """Show the six numbers and the tested cubes."""
         theta = np.clip(self.mean, LAB.LOW, LAB.HIGH)
         self.bars.show(theta / FULL, np.minimum((theta + self.std) / FULL, 1.0))
-        held = sum(good for _, good in self.tries)
-        says = (
-            f"generation {self.rounds}: grip force {LAB.squeezed(theta):.1f} N per pad"
-        )
+        grip = f"grip force {LAB.squeezed(theta):.1f} N per pad"
+        says = f"Generation {self.rounds}: {grip}."
         if self.tries:
-            rate, low, high = self.rate
-            says += f"; held {held} of {len(self.tries)}, your success_rate: "
-            says += f"{rate:.2f}, {low:.2f} to {high:.2f}"
+            held, (rate, low, high) = sum(good for _, good in self.tries), self.rate
+            says += f" It holds {held} of {len(self.tries)} cubes; your success_rate "
+            says += f"is {rate:.2f}, between {low:z.2f} and {high:z.2f}."
         self.learned.content = words.line(says, "learned")
-        self.image.image = self.dots(self.tries)
+        self.image.image = self.tested()
 
-    def dots(self, tries) -> Array:
-        """Return the picture of all tries and theta's line, of bytes, (h, w, 3)."""
-        picture = np.full((*SIZE, 3), PAPER, np.uint8)
-        newtons = LAB.squeezed(getattr(self, "mean", LAB.START))
-        for mu in np.linspace(*FRICTION, 4 * SIZE[1]):
-            stamp(picture, mu, 2000 * mu * newtons / LAB.G, BLACK, 0)
-        for cube, good in tries:
-            stamp(picture, cube.mu, 1000 * cube.mass, BLUE if good else RED, 2)
-        return picture
-
-    def lost(self) -> None:
-        """Show no numbers, and no force of theirs."""
-        self.text.content = ""
-        self.plot.clear()
-        self.cones.points = np.zeros((2 * ROUND_CONE, 2, 3), np.float32)
-
-
-def stamp(picture: Array, mu: float, grams: float, colour, half: int) -> None:
-    """Draw a square of pixels at a friction and a mass, if it is in the picture."""
-    row = SIZE[0] * (1 - (grams - GRAMS[0]) / (GRAMS[1] - GRAMS[0]))
-    column = SIZE[1] * (mu - FRICTION[0]) / (FRICTION[1] - FRICTION[0])
-    if 0 <= row < SIZE[0] and 0 <= column < SIZE[1]:
-        r, c = int(row), int(column)
-        picture[max(r - half, 0) : r + half + 1, max(c - half, 0) : c + half + 1] = (
-            colour
-        )
-
-
-def weight(lifted: Lifted) -> float:
-    """Return with how many newtons per pad a cube can just be held still."""
-    mu, grams, *_ = lifted.asked
-    return grams / 1000 * LAB.G / 2 / mu
-
-
-def late(times, least) -> float:
-    """Return the least margin from when the pads are closed; NaN where none is."""
-    after = [m for t, m in zip(times, least, strict=True) if t > day14_mujoco.CLOSED]
-    return float(min(after, default=np.nan))
-
-
-def boxed(middle: Array, half: Array) -> Array:
-    """Return the twelve edges of a box that stands upright, (12, 2, 3)."""
-    corners = middle + half * PLACES
-    return np.array([[corners[i], corners[j]] for i, j in EDGES], np.float32)
-
-
-def floor() -> Array:
-    """Return lines on the floor, a square of 0.2 m, (10, 2, 3)."""
-    ends = np.array([-0.1, 0.1])
-    along = [np.column_stack([ends, [k, k], [0, 0]]) for k in np.linspace(-0.1, 0.1, 5)]
-    return np.array(along + [one[:, [1, 0, 2]] for one in along], np.float32)
+    def tested(self) -> Array:
+        """Return the picture of all tests, and which cubes the grip force can hold."""
+        canvas = Canvas((-0.02, -55), (1.03, 310), (720, 480))
+        for mu in (0.2, 0.4, 0.6, 0.8, 1.0):
+            canvas.line([(mu, 0), (mu, 300)], (60, 66, 74), 1)
+            canvas.words(f"{mu}", (mu, -14), "grey", "mm", 20)
+        for grams in (0, 100, 200, 300):
+            canvas.line([(0.1, grams), (1.0, grams)], (60, 66, 74), 1)
+            canvas.words(f"{grams} g", (0.085, grams), "grey", "rm", 20)
+        canvas.words("friction", (0.55, -38), "grey", "mm", 20)
+        mu = np.linspace(0.1, 1.0, 50)
+        most = 2000 * mu * LAB.squeezed(self.mean) / LAB.G
+        inside = most <= 300
+        canvas.line(np.column_stack([mu, most])[inside], "white", 3)
+        for cube, good in self.tries:
+            at = [(cube.mu, 1000 * cube.mass)]
+            canvas.dots(at, "blue" if good else "red", 7)
+        return canvas.picture()
 
 
 TABS = [Touch]

@@ -52,27 +52,30 @@ def fold(yaw, period=QUARTER):
 
 @row.wrongs
 def _(T_seen, noise):
-    """not-folded: the yaw is not reduced. A cube looks the same after a quarter turn,
-      so reduce the yaw modulo pi/2
-    folded-to-0-to-90: the yaw is reduced to [0, pi/2). It should be in [-pi/4, pi/4)
-    folded-by-pi: the yaw is reduced modulo pi. A cube already looks the same after pi/2
-    folded-by-pi-over-4: the yaw is reduced modulo pi/4. A cube looks the same after
-      pi/2
-    folded-once: pi/2 is added or subtracted at most once. The cube may be rotated
-      further than that
-    noise-after-the-fold: the noise is added after the reduction, so the yaw can leave
-      [-pi/4, pi/4). Add the noise first
-    fmod: np.fmod is used, which is negative for a negative number. Use % or np.mod
-    transposed: the yaw has the wrong sign, as from the transposed rotation matrix. Use
-      the first column
-    arccosine: the yaw is arccos(R[0, 0]), which has no sign. Use both entries of the
+    """not-folded: your code does not reduce the yaw. A cube looks the same after a
+      quarter turn, so reduce the yaw modulo pi/2
+    folded-to-0-to-90: your code reduces the yaw to [0, pi/2). It should be in [-pi/4,
+      pi/4)
+    folded-by-pi: your code reduces the yaw modulo pi, but a cube already looks the same
+      after pi/2
+    folded-by-pi-over-4: your code reduces the yaw modulo pi/4, but a cube looks the
+      same only after pi/2
+    folded-once: your code adds or subtracts pi/2 at most once, but the cube may be
+      rotated further than that
+    noise-after-the-fold: your code adds the noise after the reduction, so the yaw can
+      leave [-pi/4, pi/4). Add the noise first
+    fmod: your code uses np.fmod, which is negative for a negative number. Use % or
+      np.mod
+    transposed: your yaw has the wrong sign, as from the transposed rotation matrix. Use
+      the first column of R
+    arccosine: your yaw is arccos(R[0, 0]), which has no sign. Use both entries of the
       first column
-    arcsine: the yaw is arcsin(R[1, 0]), which ends at a quarter turn on either side.
+    arcsine: your yaw is arcsin(R[1, 0]), which ends at a quarter turn on either side.
       Use both entries of the first column
-    noise-in-the-cubes-axes: the noise is rotated into the frame of the cube. It should
-      be added to x and y in the world frame
-    x-and-y-swapped: x and y are swapped
-    yaw-first: the yaw comes first. The order should be (x, y, yaw)
+    noise-in-the-cubes-axes: your code rotates the noise into the frame of the cube. It
+      should be added to x and y in the world frame
+    x-and-y-swapped: your code swaps x and y. The order should be (x, y, yaw)
+    yaw-first: your yaw comes first. The order should be (x, y, yaw)
     """
     at = T_seen[:2, 3]
     R = T_seen[:3, :3]
@@ -118,8 +121,8 @@ def _(T_seen, noise):
 
 @row.wrong(hidden="no cube of the lab has a yaw of exactly pi/4")
 def fold_at_the_other_end(T_seen, noise):
-    """a yaw of exactly pi/4 is kept. The interval [-pi/4, pi/4) excludes it: the
-    yaw becomes -pi/4"""
+    """your code leaves a yaw of exactly pi/4 unchanged. The interval [-pi/4, pi/4)
+    excludes pi/4, so the result should be -pi/4"""
     yaw = np.arctan2(T_seen[1, 0], T_seen[0, 0]) + noise[2]
     return np.append(T_seen[:2, 3] + noise[:2], yaw - QUARTER * np.round(yaw / QUARTER))
 

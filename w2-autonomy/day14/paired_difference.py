@@ -16,24 +16,22 @@ def _(rng):
         both = rng.uniform(size=n)
         yield both < p, np.where(rng.uniform(size=n) < 0.6, both, both[::-1]) < q
     for n in (5, 12, 30):
-        yield rng.numbers(-1, 1, n), rng.numbers(-1, 1, n)
+        yield rng.uniform(size=n) < 0.5, rng.uniform(size=n) < 0.5
 
 
 @row.wrongs
 def _(first, second):
-    """unpaired: the variances of the two policies are added, as for independent
-      samples. Both ran on the same cubes: use the standard deviation of the differences
-    unpaired-rates: the standard error is for two independent rates, with p (1 - p) / n
-      each. Both policies ran on the same cubes: use the standard deviation of the
+    """unpaired: your code adds the variances of the two policies, as for independent
+      samples. Both ran on the same cubes, so use the standard deviation of the
       differences
-    n-minus-one: the standard deviation divides by n - 1. Divide by n
-    n-minus-one 2: the standard error divides by sqrt(n - 1). Divide by sqrt(n)
-    root-of-the-mean-square: the standard deviation is taken about 0. Take it about the
-      mean difference
-    interval: the second result is 1.96 standard errors. Return one standard error
-    which-differ: the first result is the fraction of the cubes on which the two
+    n-minus-one: your standard deviation divides by n - 1. Divide by n
+    n-minus-one 2: your standard error divides by sqrt(n - 1). Divide by sqrt(n)
+    root-of-the-mean-square: your code takes the standard deviation about 0. Take it
+      about the mean difference
+    interval: your second result is 1.96 standard errors. Return one standard error
+    which-differ: your first result is the fraction of the cubes on which the two
       policies differ. Return the mean difference
-    sorted: both lists are sorted, so the pairs are lost
+    sorted: your code sorts both lists, so the pairs are lost
     """
     a = np.asarray(first, float)
     b = np.asarray(second, float)
@@ -42,7 +40,6 @@ def _(first, second):
     mean = d.mean()
     root = np.sqrt(n)
     s = d.std()
-    p, q = a.mean(), b.mean()
     ordered = np.sort(a) - np.sort(b)
 
     def both(m, sigma):
@@ -50,9 +47,6 @@ def _(first, second):
 
     return {
         "unpaired": both(mean, np.sqrt((a.var() + b.var()) / n)),
-        "unpaired-rates": lambda: both(
-            mean, np.sqrt(max(p * (1 - p) + q * (1 - q), 0.0) / n)
-        ),
         "n-minus-one": both(mean, d.std(ddof=1) / root),
         "n-minus-one 2": both(mean, s / np.sqrt(n - 1)),
         "root-of-the-mean-square": both(mean, np.sqrt(np.mean(d**2) / n)),
@@ -69,3 +63,12 @@ def _(first, second):
     common = np.mean((a - a.mean()) * (b - b.mean()))
     spread = a.var() + b.var() - 2 * common
     return a.mean() - b.mean(), np.sqrt(max(spread, 0) / a.size)
+
+
+@row.right  # By the counts of the cubes that only one of the two held.
+def _(first, second):
+    n = len(first)
+    gained = sum(1 for a, b in zip(first, second, strict=True) if a and not b)
+    lost = sum(1 for a, b in zip(first, second, strict=True) if b and not a)
+    mean = (gained - lost) / n
+    return mean, np.sqrt(max((gained + lost) / n - mean**2, 0.0) / n)

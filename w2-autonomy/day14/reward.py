@@ -35,36 +35,35 @@ def _(rng):
 
 @row.wrongs
 def _(heights, target, cap):
-    """no-cap: a height above the cap has the reward 1. The cube was thrown, so the
+    """no-cap: your reward of a height above the cap is 1. The cube was thrown, so the
       reward should be -1
-    no-cap 2: a height above the cap has the reward 1. The cube was thrown, so the
+    no-cap 2: your reward of a height above the cap is 1. The cube was thrown, so the
       reward should be -1
-    below-the-floor-is-lost: a height below the floor has the reward -1. The reward
-      should be 0
-    nan-passes: the reward of NaN is NaN, because every comparison with NaN is False.
-      Test with np.isfinite
-    nan-passes 2: the reward of NaN is NaN, and minus infinity has the reward 0. Test
-      with np.isfinite
-    nan-is-zero: the reward of NaN is 0. It should be -1, because the simulation failed
-    infinity-passes: the reward of minus infinity is 0. It should be -1 for every height
-      that is not finite
-    thrown-is-zero: a height above the cap has the reward 0. It should be -1
-    success-only: the reward is 0 or 1. Below the target the reward should rise linearly
-      with the height
-    success-only 2: the reward is 0 or 1. Below the target the reward should rise
-      linearly with the height
-    not-limited: a height above the target has a reward above 1. The reward should be 1
-    below-the-floor: a height below the floor has a reward below 0. The reward should be
+    below-the-floor-is-lost: your reward of a height below the floor is -1. It should be
       0
-    thrown-is-minus-cap: a height above the cap has minus the height as its reward. The
-      reward should be -1
-    cap-for-target: the height is divided by the cap. Divide it by the target
-    cap-for-target 2: below the target the height is divided by the cap. Divide it by
-      the target
-    halved: the reward on the floor is -1. It should be 0
-    one-minus: the result is 1 minus the reward
-    nothing-lost: episodes with NaN or with a height above the cap are left out. Each
-      episode should have a reward
+    nan-passes: your reward of NaN is NaN, because every comparison with NaN is False.
+      Test with np.isfinite
+    nan-passes 2: your reward of NaN is NaN, and minus infinity has the reward 0. Test
+      with np.isfinite
+    nan-is-zero: your reward of NaN is 0. It should be -1, because the simulation failed
+    infinity-passes: your reward of minus infinity is 0. It should be -1 for every
+      height that is not finite
+    thrown-is-zero: your reward of a height above the cap is 0. It should be -1
+    success-only: your reward is 0 or 1. Below the target the reward should rise
+      linearly with the height
+    success-only 2: your reward is 0 or 1. Below the target the reward should rise
+      linearly with the height
+    not-limited: your reward of a height above the target is above 1. It should be 1
+    below-the-floor: your reward of a height below the floor is below 0. It should be 0
+    thrown-is-minus-cap: your reward of a height above the cap is minus the height. It
+      should be -1
+    cap-for-target: your code divides the height by the cap. Divide it by the target
+    cap-for-target 2: below the target, your code divides the height by the cap. Divide
+      it by the target
+    halved: your reward on the floor is -1. It should be 0
+    one-minus: your result is 1 minus the reward. Return the reward itself
+    nothing-lost: your code leaves out episodes with NaN or with a height above the cap.
+      Each episode should have a reward
     """
     h = heights
     good = np.isfinite(h) & (h <= cap)

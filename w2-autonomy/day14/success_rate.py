@@ -29,18 +29,18 @@ def _(success):
       whose width is 0 for 8 successes of 8. Use Day 12's wilson_interval
     plain-to-0-and-1: your function returns the Wald interval, clamped to 0 and 1. Use
       Day 12's wilson_interval
-    middle-for-rate: the rate is the centre of the interval. It should be the fraction
+    middle-for-rate: your rate is the centre of the interval. It should be the fraction
       of successes
-    order: the interval comes first. The order should be (rate, low, high)
-    ends-swapped: the two ends of the interval are swapped. The order should be (rate,
-      low, high)
-    half-width: the last two results are the distances of the ends from the rate. Return
-      the ends themselves
-    failures: the interval is computed from the failures. Count the successes
-    one-sided: the interval uses 1.645, which gives 90 %. A 95 % interval needs 1.96
-    ninety-nine: the interval uses 2.576, which gives 99 %. A 95 % interval needs 1.96
-    n-less-one: the results are divided by n - 1. Divide by n
-    per-cent: the three results are in per cent
+    order: your interval comes first. The order should be (rate, low, high)
+    ends-swapped: your code swaps the two ends of the interval. The order should be
+      (rate, low, high)
+    half-width: your last two results are the distances of the ends from the rate.
+      Return the ends themselves
+    failures: your code computes the interval from the failures. Count the successes
+    one-sided: your interval uses 1.645, which gives 90 %. A 95 % interval needs 1.96
+    ninety-nine: your interval uses 2.576, which gives 99 %. A 95 % interval needs 1.96
+    n-less-one: your code divides the results by n - 1. Divide by n
+    per-cent: your three results are in per cent. Return fractions
     """
     won = np.asarray(success, float)
     n = len(won)

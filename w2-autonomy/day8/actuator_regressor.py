@@ -23,8 +23,8 @@ def slow(case: Case) -> Finding | None:
         own = np.diagonal(size, axis1=1, axis2=2).ravel()  # each joint's own entry
         if (np.diff(own[np.argsort(np.abs(qd).ravel())]) < -1e-9).any():
             return None  # it does not grow with the velocity
-    says = "A slow joint has less dry friction than a fast one, or none. "
-    says += "Its magnitude does not depend on the velocity, only its sign does."
+    says = "In your result, a slow joint has less dry friction than a fast one. "
+    says += "Only the sign of dry friction depends on the velocity, not its magnitude."
     return Finding("slow-left-out", says)
 
 
@@ -51,37 +51,37 @@ def side_by_side(*blocks):
     return np.hstack([np.diag(block) for block in blocks])
 
 
-for slug, says, redone, blocks in (
-    ("smoothed", "dry friction is tanh(qd / 0.1), a smoothed sign. The task asks for "
-     "the sign of qd itself", "tanh(qd / 0.1) in the last block",
+for slug, says, blocks in (
+    ("smoothed", "your dry friction is tanh(qd / 0.1), a smoothed sign. The task asks "
+                 "for the sign of qd itself",
      lambda qd, qdd: (qdd, qd, np.tanh(qd / 0.1))),
-    ("sign-at-rest", "the dry friction of a joint at rest is 1. The sign of 0 is 0",
-     "1 where qd is 0", lambda qd, qdd: (qdd, qd, np.where(qd < 0.0, -1.0, 1.0))),
+    ("sign-at-rest",
+     "your dry friction of a joint at rest is 1, but the sign of 0 is 0",
+     lambda qd, qdd: (qdd, qd, np.where(qd < 0.0, -1.0, 1.0))),
     ("sign-at-rest-negative",
-     "the dry friction of a joint at rest is -1. The sign of 0 is 0",
-     "-1 where qd is 0", lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
-    ("sign-at-rest-of-qdd", "the dry friction of a joint at rest has the sign of the "
-     "joint's acceleration. The task asks for the sign of qd, which is 0",
-     "sign(qdd) where qd is 0",
+     "your dry friction of a joint at rest is -1, but the sign of 0 is 0",
+     lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
+    ("sign-at-rest-of-qdd", "your dry friction of a joint at rest has the sign of the "
+                            "joint's acceleration. The task asks for the sign of qd, "
+                            "which is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd == 0.0, np.sign(qdd), np.sign(qd)))),
-    ("slow-left-out", "dry friction is 0 for a slow joint. The magnitude of dry "
-     "friction does not depend on the velocity", "0 where |qd| is below 0.1",
+    ("slow-left-out", "your dry friction is 0 for a slow joint, but the magnitude of "
+                      "dry friction does not depend on the velocity",
      lambda qd, qdd: (qdd, qd, np.sign(qd) * (np.abs(qd) >= 0.1))),
-    ("dry-one-way", "dry friction is 0 where qd is negative. It should be -1 there",
-     "1 where qd is positive, and else 0",
+    ("dry-one-way", "your dry friction is 0 where qd is negative. It should be -1 "
+                    "there",
      lambda qd, qdd: (qdd, qd, np.maximum(np.sign(qd), 0.0))),
-    ("dry-forgotten", "the seven columns of dry friction are 0",
-     "the last block of zeros", lambda qd, qdd: (qdd, qd, 0 * qd)),
+    ("dry-forgotten", "your seven columns of dry friction are 0. They should contain "
+                      "the signs of the joints' velocities",
+     lambda qd, qdd: (qdd, qd, 0 * qd)),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(
-        lambda qd, qdd, blocks=blocks: side_by_side(*blocks(qd, qdd))
-    )
+    row.wrong(slug, says)(lambda qd, qdd, blocks=blocks: side_by_side(*blocks(qd, qdd)))
 
 
 @row.wrong
 def by_joint(qd, qdd):
-    """the columns are grouped by joint. Put all rotors first, then all viscous
-    friction, then all dry friction => the result with its columns grouped by joint"""
+    """your columns are grouped by joint. Put all rotors first, then all viscous
+    friction, then all dry friction"""
     Y = side_by_side(qdd, qd, np.sign(qd)).reshape(7, 3, 7)
     return np.swapaxes(Y, 1, 2).reshape(7, 21)
 

@@ -74,72 +74,84 @@ def below(corner, T):
 
 
 for slug, says, other in (
-    ("bracket-forgotten", "`A` lacks the term ad(V) S qd, which is needed because the "
-     "preceding joints change the direction of a joint's axis", {"bracket": 0.0}),
-    ("bracket-sign", "`A` contains ad(S) V qd, which is the negative of ad(V) S qd",
+    ("bracket-forgotten", "your `A` lacks the term ad(V) S qd, which is needed because "
+                          "the preceding joints change the direction of a joint's axis",
+                          {"bracket": 0.0}),
+    ("bracket-sign", "your `A` contains ad(S) V qd, which is the negative of ad(V) S "
+                     "qd",
      {"bracket": -1.0}),
-    ("pose-not-inverted", "V and A are transformed with Ad(T). The adjoint from the "
-     "world to the link is Ad(T^-1)", {"into": adjoint}),
-    ("offset-left-out", "your code rotates the twists V and A into the link frame but "
-     "does not change their reference point to the link's origin: the adjoint lacks "
-     "the block [p] R",
+    ("pose-not-inverted", "your code transforms V and A with Ad(T), but the adjoint "
+                          "from the world to the link is Ad(T^-1)", {"into": adjoint}),
+    ("offset-left-out", "your code rotates the twists V and A into the link frame, but "
+                        "it does not change their reference point to the link's "
+                        "origin. The adjoint lacks the block [p] R",
      {"into": lambda T: np.kron(np.eye(2), T[:3, :3].T)}),
-    ("in-world-axes", "V and A are not transformed to the link. The parameters of a "
-     "link are expressed in its own frame, about its origin",
+    ("in-world-axes", "your code does not transform V and A to the link, but the "
+                      "parameters of a link are expressed in its own frame, about its "
+                      "origin",
      {"into": lambda T: np.eye(6)}),
-    ("wrench-back-with-the-inverse", "the wrench is transformed back with X^-1, as a "
-     "twist is. A wrench transforms with X^T, because the power is the same in both "
-     "frames", {"back": np.linalg.inv}),
-    ("wrench-not-carried-back", "the wrench is rotated to the world frame, but its "
-     "moment is not taken about the world's origin",
+    ("wrench-back-with-the-inverse", "your code transforms the wrench back with X^-1, "
+                                     "as a twist. A wrench transforms with X^T, "
+                                     "because the power is the same in both frames",
+                                     {"back": np.linalg.inv}),
+    ("wrench-not-carried-back", "your code rotates the wrench to the world frame, but "
+                                "it does not take the moment about the world's origin",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),
-    ("every-joint-feels-every-link", "each link has entries in the rows of all joints. "
-     "A link causes no torque at the joints distal to it",
+    ("every-joint-feels-every-link", "each link in your matrix has entries in the rows "
+                                     "of all joints, but a link causes no torque at "
+                                     "the joints distal to it",
      {"felt": lambda i: slice(0, 7)}),
-    ("cut-early", "your code leaves out the row of each link's own joint. A link also "
-     "causes a torque at its own joint", {"felt": lambda i: slice(0, i)}),
-    ("cut-late", "your code also fills the row of the joint after each link. A link "
-     "causes no torque at that joint", {"felt": lambda i: slice(0, i + 2)}),
-    ("later-links-only", "link i has entries in the rows of its own joint and of all "
-     "distal joints. They belong in the rows of its own and all proximal joints",
+    ("cut-early", "your code leaves out the row of each link's own joint, but a link "
+                  "also causes a torque at its own joint",
+                  {"felt": lambda i: slice(0, i)}),
+    ("cut-late", "your code also fills the row of the joint after each link, but a "
+                 "link causes no torque at that joint",
+                 {"felt": lambda i: slice(0, i + 2)}),
+    ("later-links-only", "in your matrix, link i has entries in the rows of its own "
+                         "joint and of all distal joints. They belong in the rows of "
+                         "its own and all proximal joints",
      {"felt": lambda i: slice(i, 7)}),
-    ("own-link-only", "each row contains only the joint's own link. A joint also "
-     "carries all links distal to it", {"felt": lambda i: slice(i, i + 1)}),
-    ("last-link-missing", "the columns of the last link are 0: the loop ends one link "
-     "too early", {"links": 6}),
-    ("pose-of-the-link-before", "each link uses the pose of the link before it. "
-     "T_links[0] is already the pose of link1",
+    ("own-link-only", "each row of your matrix contains only the joint's own link, but "
+                      "a joint also carries all links distal to it",
+                      {"felt": lambda i: slice(i, i + 1)}),
+    ("last-link-missing", "your columns of the last link are 0, because the loop ends "
+                          "one link too early", {"links": 6}),
+    ("pose-of-the-link-before", "each link in your code uses the pose of the link "
+                                "before it. T_links[0] is already the pose of link1",
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
     ("pose-on-the-link-before", "your code uses the pose of each link relative to the "
      "previous link. T_links contains poses relative to the world, so use them "
      "unchanged",
      {"pose": lambda T, i: inverse(T[i - 1]) @ T[i] if i else T[0]}),
     ("p-sign",
-     "the lower left block of Ad(T^-1) has the wrong sign. It should be -R^T [p]",
+     "the lower left block of your Ad(T^-1) has the wrong sign. It should be -R^T [p]",
      {"into": lambda T: below(T[:3, :3].T @ skew(T[:3, 3]), T)}),
-    ("p-before-R", "the lower left block of Ad(T^-1) is -[p] R^T. Because p is "
-     "expressed in the world frame, the block should be -R^T [p]",
+    ("p-before-R", "the lower left block of your Ad(T^-1) is -[p] R^T. Because p is "
+                   "expressed in the world frame, the block should be -R^T [p]",
      {"into": lambda T: below(-skew(T[:3, 3]) @ T[:3, :3].T, T)}),
-    ("p-before-R", "the lower left block of Ad(T^-1) is [p] R^T. Because p is "
-     "expressed in the world frame, the block should be -R^T [p]",
+    ("p-before-R", "the lower left block of your Ad(T^-1) is [p] R^T. Because p is "
+                   "expressed in the world frame, the block should be -R^T [p]",
      {"into": lambda T: below(skew(T[:3, 3]) @ T[:3, :3].T, T)}),
-    ("acceleration-starts-anew", "`A` contains only the acceleration of the base and "
-     "the terms of joint i. Add the terms of the joints before it as well",
+    ("acceleration-starts-anew", "your `A` contains only the acceleration of the base "
+                                 "and the terms of joint i. Add the terms of the "
+                                 "joints before it as well",
      {"passed_on": 0.0}),
-    ("gravity-forgotten", "g has no effect. The acceleration of the base is -g, with "
-     "which A begins", {"gravity": 0.0}),
-    ("acceleration-not-turned", "V is transformed to the link, but A is not",
+    ("gravity-forgotten", "the argument g has no effect in your code. The acceleration "
+                          "of the base is -g, and A should begin with it",
+                          {"gravity": 0.0}),
+    ("acceleration-not-turned", "your code transforms V to the link, but it does not "
+                                "transform A",
      {"both": False}),
-    ("twist-too-late", "V is used before S qd of joint i is added, so V is the twist "
-     "of the previous link", {"late": True}),
+    ("twist-too-late", "your code uses V before it adds S qd of joint i, so V is the "
+                       "twist of the previous link", {"late": True}),
 ):  # fmt: skip
-    row.wrong(slug, says, "this Y")(partial(walk, **other))
+    row.wrong(slug, says)(partial(walk, **other))
 
 
 @row.wrong
 def added_up_in_the_links(J, T, qd, qdd, g):
-    """V and A are summed in the link frames, but the sum up to the previous link is
-    expressed in another frame. Sum both in the world frame => this Y"""
+    """your code sums V and A in the link frames, but the sum up to the previous link is
+    expressed in another frame. Sum both in the world frame"""
     V = np.zeros(6)
     A = np.append(np.zeros(3), -g)
     Y = np.zeros((7, 70))
@@ -154,15 +166,15 @@ def added_up_in_the_links(J, T, qd, qdd, g):
 
 @row.wrong
 def grouped_by_number(J_space, T_links, qd, qdd, g):
-    """the columns are grouped by parameter, all masses first. Group them by link, ten
-    columns each => the result with its columns in that order"""
+    """your columns are grouped by parameter, with all masses first. Group them by link,
+    ten columns each"""
     Y = arm_regressor(J_space, T_links, qd, qdd, g).reshape(7, 7, 10)
     return np.swapaxes(Y, 1, 2).reshape(7, 70)
 
 
 TYPED_IN = Change(
     "gravity-typed-in",
-    "gravity is the constant (0, 0, -9.81) in your function. Use the argument g",
+    "your code contains gravity as the constant (0, 0, -9.81). Use the argument g",
     lambda g: DOWN,
     hidden="the arm of the lab is upright",
 )

@@ -43,30 +43,31 @@ def solved(Y, extra, rcond=None):
 
 @row.wrongs
 def _(J_site, R_site, extra, g):
-    """load-drives: the result has the opposite sign. extra is the torque of the motors,
-      which hold the payload against its weight => the result with +J^T
-    force-first: the wrench is in the order (force; moment). The first three rows of J
-      are angular, so the moment comes first
-    holds-averaged: the poses are averaged before the fit, which leaves seven equations
-      and removes the differences between the poses. Stack the rows of all poses
-    first-hold-only: only the first pose is used. One pose does not determine all four
-      parameters, so stack the rows of all poses => the result from the first pose
-    last-hold-only: only the last pose is used, because each pass of the loop overwrites
-      the rows of the pose before. Stack them => the result from the last pose
-    extra-by-joint: the torques are flattened joint by joint, but the rows of the
-      regressor are stacked pose by pose => the result with extra in that order
-    reshaped: J_site is reshaped to (k, 7, 6), which keeps the order of its entries. To
-      transpose each matrix, swap the last two axes => the result with J reshaped
-    wrenches-first: each pose's torques are converted to a wrench, and the wrenches are
-      fitted. The torques are measured, so fit the torques => the fit to wrenches
-    cut-too-high: small singular values are left out. If the poses differ little, these
-      values determine a part of m c => the result without them
-    solutions-averaged: each pose is solved alone, and the solutions are averaged. One
+    """load-drives: your result has the opposite sign. The argument extra is the torque
+      of the motors, which hold the payload against its weight
+    force-first: your wrench is in the order (force, moment). The first three rows of J
+      are angular, so the moment should come first
+    holds-averaged: your code averages the poses before the fit, which leaves seven
+      equations and removes the differences between the poses. Stack the rows of all
+      poses
+    first-hold-only: your code uses only the first pose. One pose does not determine all
+      four parameters, so stack the rows of all poses
+    last-hold-only: your code uses only the last pose, because each pass of the loop
+      overwrites the rows of the previous pose. Stack the rows of all poses
+    extra-by-joint: your code flattens the torques joint by joint, but it stacks the
+      rows of the regressor pose by pose
+    reshaped: your code reshapes J_site to (k, 7, 6), which keeps the order of its
+      entries. To transpose each matrix, swap the last two axes
+    wrenches-first: your code converts each pose's torques to a wrench and fits the
+      wrenches. The torques are measured, so fit the torques
+    cut-too-high: your code leaves out small singular values, but if the poses differ
+      little, these values determine a part of m c
+    solutions-averaged: your code solves each pose alone and averages the solutions. One
       pose does not determine all four parameters, so stack the rows of all poses
-    weight-for-mass: the first result is the weight in newtons. The column of m should
-      contain g itself, not its unit vector => the result with |g| m
-    centre-for-first-moment: the last three results are c. The task asks for m c, in
-      which the equations are linear => m, then c
+    weight-for-mass: your first result is the weight in newtons. The column of m should
+      contain g itself, not its unit vector
+    centre-for-first-moment: your last three results are c. The task asks for m c, in
+      which the equations are linear
     """
     Y = rows(J_site, R_site, g)
     right = solved(Y, extra)
@@ -93,10 +94,10 @@ def _(J_site, R_site, extra, g):
 
 @row.wrongs
 def _(J_site, R_site, extra, g):
-    """g-not-turned-back: g is rotated by R; R^T expresses it in the hand frame => R
-      instead of R^T
-    moment-in-the-hand: the moment is expressed in the hand frame, but J_site takes it
-      in the world frame; multiply it by R => the moment without R
+    """g-not-turned-back: your code rotates g by R, but R^T expresses it in the hand
+      frame
+    moment-in-the-hand: your moment is expressed in the hand frame, but J_site takes it
+      in the world frame. Multiply it by R
     """
 
     def fitted(moments):

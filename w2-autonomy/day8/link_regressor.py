@@ -27,18 +27,16 @@ def _(rng):
 
 @row.wrongs
 def _(V, Vd):
-    """ad-not-transposed: the velocity product uses -ad(V) instead of -ad(V)^T. A wrench
-      transforms with the transpose => G Vd - ad(V) G V
-    ad-not-transposed-plus: the velocity product uses +ad(V) instead of -ad(V)^T => G Vd
-      + ad(V) G V
-    unit-vector-not-reset: the unit vector still contains the ones of earlier columns,
-      so column k is the sum of the wrenches of the first k parameters => the columns
-      added up
-    gravity-added: gravity is added to Vd, but Vd already includes it as the
-      acceleration -g of the base => the result for Vd + (0, 0, 0, 0, 0, 9.81)
-    first-moments-empty: the columns of m c are 0. Their unit vectors have m = 0, so
-      phi[1:4] must be neither multiplied nor divided by m => the result without these
-      columns
+    """ad-not-transposed: your velocity product uses -ad(V) instead of -ad(V)^T. A
+      wrench transforms with the transpose
+    ad-not-transposed-plus: your velocity product uses +ad(V) instead of -ad(V)^T
+    unit-vector-not-reset: your code does not reset the unit vector between columns, so
+      the entries that were set to 1 for earlier columns remain. Column k is therefore
+      the sum of the wrenches of the first k parameters
+    gravity-added: your code adds gravity to Vd, but Vd already includes it as the
+      acceleration -g of the base
+    first-moments-empty: your columns of m c are 0. Their unit vectors have m = 0, so
+      phi[1:4] must be neither multiplied nor divided by m
     """
     right = link_regressor(V, Vd)
     X = ad(V)

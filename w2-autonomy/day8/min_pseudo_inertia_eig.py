@@ -45,57 +45,57 @@ def doubled(I):  # noqa: E741
     return S + np.diag(np.diag(S))
 
 
-for slug, says, redone, code in (
-    ("only-the-inertia", "the result is the smallest eigenvalue of I. The "
-     "pseudo-inertia also contains m c, and (tr(I)/2) E - I instead of I, where E is "
-     "the identity",
-     "this eigenvalue",
+for slug, says, code in (
+    ("only-the-inertia", "your result is the smallest eigenvalue of I. The "
+                         "pseudo-inertia contains (tr(I)/2) E - I instead of I, where "
+                         "E is the identity, and it also contains m c",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi)[:3, :3])[0]),
-    ("inertia-not-turned-round", "the upper left block is I. It should be the sum of m "
-     "r r^T, which is (tr(I)/2) E - I with the identity E", "the result with I there",
+    ("inertia-not-turned-round", "your upper left block is I. It should be the sum of "
+                                 "m r r^T, which is (tr(I)/2) E - I with the identity "
+                                 "E",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: I))[0]),  # noqa: E741
-    ("products-not-negated", "the entries beside the diagonal of S have the wrong "
-     "sign. S is tr(I)/2 1 - I, so they are -Ixy, -Ixz and -Iyz", "the other sign",
+    ("products-not-negated", "the entries beside the diagonal of your S have the wrong "
+                             "sign. S is (tr(I)/2) E - I with the identity E, so they "
+                             "are -Ixy, -Ixz and -Iyz",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, mirrored))[0]),
-    ("not-halved", "the diagonal of S is twice as large. S is tr(I)/2 1 - I, so its "
-     "first entry is (Iyy + Izz - Ixx) / 2", "the diagonal without the half",
+    ("not-halved", "the diagonal of your S is twice as large as it should be. S is "
+                   "(tr(I)/2) E - I with the identity E, so its first entry is (Iyy + "
+                   "Izz - Ixx) / 2",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, doubled))[0]),
-    ("centre-for-first-moment", "the centre of mass c is used instead of h = m c",
-     "the result with h / m",
+    ("centre-for-first-moment", "your code uses the centre of mass c instead of h = "
+                                "m c",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, h=1.0 / phi[0]))[0]),
-    ("determinant", "the result is the determinant, which is the product of all "
-     "eigenvalues", "the determinant", lambda phi: np.linalg.det(pseudo(phi))),
-    ("singular-value", "the result is the smallest singular value, which is never "
-     "negative. The sign of the eigenvalue matters", "the smallest singular value",
+    ("determinant", "your result is the determinant, which is the product of all "
+                    "eigenvalues. Return the smallest eigenvalue",
+     lambda phi: np.linalg.det(pseudo(phi))),
+    ("singular-value", "your result is the smallest singular value, which is never "
+                       "negative. The sign of the eigenvalue matters",
      lambda phi: np.linalg.svd(pseudo(phi), compute_uv=False)[-1]),
-    ("nearest-to-zero", "the result is the eigenvalue with the smallest absolute "
-     "value. A negative eigenvalue is smaller than any positive one", "this eigenvalue",
+    ("nearest-to-zero", "your result is the eigenvalue with the smallest absolute "
+                        "value. A negative eigenvalue is smaller than any positive one",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi)), key=abs)),
-    ("clipped", "a positive result is set to 0. Return the eigenvalue itself",
-     "the result with 0 where it is positive",
+    ("clipped", "your code sets a positive result to 0. Return the eigenvalue itself",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
-    ("never-above-zero", "the result is minus the absolute value of the eigenvalue. "
-     "The eigenvalue is not negative for a body that can exist",
-     "minus its absolute value",
+    ("never-above-zero", "your result is minus the absolute value of the eigenvalue. "
+                         "The eigenvalue is not negative for a body that can exist",
      lambda phi: -abs(np.linalg.eigvalsh(pseudo(phi))[0])),
-    ("first-moment-once", "h has no effect. Either h is missing, or you set only the "
-     "upper block, but eigvalsh reads only the lower triangle", "the result without h",
+    ("first-moment-once", "h has no effect in your code. Either h is missing, or you "
+                          "set only the upper block, but eigvalsh reads only the lower "
+                          "triangle",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
-    ("about-the-centre", "I is transformed to the centre of mass first. Both I and the "
-     "sum of m r r^T are about the origin", "the result with I about the centre of "
-     "mass",
+    ("about-the-centre", "your code transforms I to the centre of mass first. Both I "
+                         "and the sum of m r r^T are about the origin",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
-    ("of-the-inertia", "the result is the smallest eigenvalue of the 6x6 spatial "
-     "inertia. The 4x4 pseudo-inertia contains (tr(I)/2) E - I, with the identity E, "
-     "and h",
-     "this eigenvalue",
+    ("of-the-inertia", "your result is the smallest eigenvalue of the 6x6 spatial "
+                       "inertia. The 4x4 pseudo-inertia contains (tr(I)/2) E - I, with "
+                       "the identity E, and h",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi))[0]),
-    ("unsorted", "the result is the first eigenvalue of numpy.linalg.eigvals, which "
-     "does not sort them. Take the minimum", "the first of numpy.linalg.eigvals",
+    ("unsorted", "your result is the first eigenvalue of numpy.linalg.eigvals, which "
+                 "does not sort them. Take the minimum",
      lambda phi: np.linalg.eigvals(pseudo(phi))[0].real),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(code)
+    row.wrong(slug, says)(code)
 
 
 @row.right  # Entry by entry, from the general eigenvalues.

@@ -28,37 +28,35 @@ def _(rng):
 
 @row.wrongs
 def _(Y, tau, Y_new, rtol):
-    """columns-for-rank: the variance of the noise is divided by n - p. Divide by n -
-      rank, because the fit uses only rank combinations of the p columns => sigma with n
-      - p
-    one-more-taken-off: the variance of the noise is divided by n - rank - 1. No mean is
-      subtracted, so divide by n - rank => sigma with n - rank - 1
-    mean-of-sizes: the noise is computed as the mean of the absolute residuals. Use the
-      root of the mean square => sigma with the mean of |r|
-    noise-added: the noise of a new measurement is added to sigma. sigma should include
-      only the uncertainty of the fitted parameters => the root of sigma^2 + noise^2
-    mean-taken-off: the mean of the residual is subtracted first, as in a standard
-      deviation about the mean. The mean is part of the noise => sigma without the mean
-    rank-taken-off-last: the rank is subtracted after the division by n. Write n - rank
-      in brackets => sigma with r . r / n - rank
-    noise-for-sigma: sigma is the standard deviation of the noise in every row. A
-      prediction that the data hardly determine should have a larger sigma => the noise
-    sigma-by-s-squared: sigma is divided by the singular values twice. The covariance V
-      S^-2 V^T contains S^-2, but sigma is the square root of y V S^-2 V^T y^T => sigma
-      with s^2 for s
-    sigma-with-V: V^T is used instead of V in sigma. The function numpy.linalg.svd
-      returns V^T => sigma with V^T for V
-    sigma-cut-not-squared: in sigma, the eigenvalues of Y^T Y are compared with rtol
-      times the largest. They are squares of the singular values, so use rtol^2 => sigma
-      with the pseudo-inverse of Y^T Y and rtol
+    """columns-for-rank: your code divides the variance of the noise by n - p. Divide by
+      n - rank, because the fit uses only rank combinations of the p columns
+    one-more-taken-off: your code divides the variance of the noise by n - rank - 1. No
+      mean is subtracted, so divide by n - rank
+    mean-of-sizes: your code computes the noise as the mean of the absolute residuals.
+      Use the root of the mean square
+    noise-added: your code adds the noise of a new measurement to sigma, but sigma
+      should include only the uncertainty of the fitted parameters
+    mean-taken-off: your code subtracts the mean of the residual first, as in a standard
+      deviation about the mean. The mean is part of the noise, so keep it
+    rank-taken-off-last: your code subtracts the rank after the division by n. Put n -
+      rank in brackets
+    noise-for-sigma: your sigma is the standard deviation of the noise in every row. A
+      prediction that the data hardly determine should have a larger sigma
+    sigma-by-s-squared: your code divides sigma by the singular values twice. The
+      covariance V S^-2 V^T contains S^-2, but sigma is the square root of y V S^-2 V^T
+      y^T
+    sigma-with-V: your code uses V^T instead of V in sigma. The function
+      numpy.linalg.svd returns V^T
+    sigma-cut-not-squared: in sigma, your code compares the eigenvalues of Y^T Y with
+      rtol times the largest. They are squares of the singular values, so use rtol^2
     sizes-added: your sigma adds the absolute values of the terms. The variances of
       independent errors add, so sigma should be the square root of the sum of the
-      squared terms => sigma with the sum
+      squared terms
     sizes-added 2: your sigma adds the absolute values of the weights of the
       measurements. The variances of independent errors add, so sigma should be the
-      square root of the sum of the squares => sigma with the sum
-    sigma-not-cut: sigma includes the small singular values that the fit leaves out =>
-      the right torque, and sigma with all singular values
+      square root of the sum of the squares
+    sigma-not-cut: your sigma includes the small singular values that the fit leaves
+      out. Leave them out of sigma too
     """
     torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
     U, s, Vt = parts(Y, rtol)
@@ -90,7 +88,7 @@ def _(Y, tau, Y_new, rtol):
 
 NOT_USED = Change(
     "rtol-not-used",
-    "the tolerance is a constant in your function. Use the argument rtol",
+    "your tolerance is a constant. Use the argument rtol",
     lambda rtol: 1e-9,
     "the result with 1e-9 for rtol",
 )

@@ -78,56 +78,52 @@ def _(rng):
     return [(CASE, 1e-9), exact, *near, *even, *((Y, CUT) for Y in drawn)]
 
 
-for slug, says, redone, told in (
-    ("rtol-absolute", "the singular values are compared with rtol itself. Compare them "
-     "with rtol times the largest one; otherwise the rank depends on the unit",
-     "the result with rtol as an absolute limit",
+for slug, says, told in (
+    ("rtol-absolute", "your code compares the singular values with rtol itself. "
+                      "Compare them with rtol times the largest one; otherwise the "
+                      "rank depends on the unit",
      lambda s, rtol: (n := np.sum(s > rtol), s[0] / s[n - 1])),
-    ("condition-of-all", "the condition number uses the smallest of all singular "
-     "values. Use the smallest one that is counted in the rank",
-     "the largest over the smallest of all",
+    ("condition-of-all", "your condition number uses the smallest of all singular "
+                         "values. Use the smallest one that is counted in the rank",
      lambda s, rtol: (np.sum(s > rtol * s[0]), s[0] / max(s[-1], 1e-300))),
-    ("nothing-cut", "all singular values are counted, so rtol has no effect",
-     "the result with all singular values",
+    ("nothing-cut", "your code counts all singular values, so rtol has no effect",
      lambda s, rtol: (len(s), s[0] / max(s[-1], 1e-300))),
-    ("cut-by-the-sum", "the singular values are compared with rtol times their sum. "
-     "Compare them with rtol times the largest", "the result with the sum",
+    ("cut-by-the-sum", "your code compares the singular values with rtol times their "
+                       "sum. Compare them with rtol times the largest",
      lambda s, rtol: (n := np.sum(s > rtol * s.sum()), s[0] / s[n - 1])),
-    ("cut-by-the-norm", "the singular values are compared with rtol times the "
-     "Frobenius norm of Y. Compare them with rtol times the largest",
-     "the result with this norm",
+    ("cut-by-the-norm", "your code compares the singular values with rtol times the "
+                        "Frobenius norm of Y. Compare them with rtol times the largest",
      lambda s, rtol: (n := np.sum(s > rtol * np.linalg.norm(s)), s[0] / s[n - 1])),
     ("cut-by-rows", "your function multiplies rtol by the number of rows, as NumPy "
      "does with its default tolerance. Compare the singular values with rtol times the "
-     "largest", "the result with rtol times the rows",
+     "largest",
      lambda s, rtol, m: (n := np.sum(s > rtol * m * s[0]), s[0] / s[n - 1])),
-    ("rtol-not-used", "the tolerance is a constant in your function. Use the argument "
-     "rtol", "the result with 1e-9 for rtol",
+    ("rtol-not-used", "your tolerance is a constant. Use the argument rtol",
      lambda s, rtol: (n := np.sum(s > 1e-9 * s[0]), s[0] / s[n - 1])),
-    ("eigenvalues-of-the-square", "the eigenvalues of Y^T Y are used as singular "
-     "values. The singular values of Y are their square roots",
-     "the result with the squares",
+    ("eigenvalues-of-the-square", "your code uses the eigenvalues of Y^T Y as singular "
+                                  "values. The singular values of Y are their square "
+                                  "roots",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), (s[0] / s[n - 1]) ** 2)),
-    ("cut-not-squared", "the eigenvalues of Y^T Y are squares of the singular values, "
-     "so they must be compared with rtol^2 times the largest",
-     "the result with the square root of rtol",
+    ("cut-not-squared", "your code compares the eigenvalues of Y^T Y with rtol times "
+                        "the largest. They are squares of the singular values, so "
+                        "compare them with rtol^2 times the largest",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), s[0] / s[n - 1])),
-    ("hidden-for-shown", "the rank is the number of singular values below the limit. "
-     "It should be the number above the limit", "the number of columns minus the rank",
+    ("hidden-for-shown", "your rank is the number of singular values below the limit. "
+                         "It should be the number above the limit",
      lambda s, rtol: (len(s) - (n := np.sum(s > rtol * s[0])), s[0] / s[n - 1])),
-    ("condition-squared", "the condition number is computed for Y^T Y, so it is the "
-     "square of the condition number of Y", "its square",
+    ("condition-squared", "your code computes the condition number for Y^T Y, so the "
+                          "result is the square of the condition number of Y",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
-    ("condition-rooted", "the condition number is the square root of the ratio. Only "
-     "the eigenvalues of Y^T Y need a square root; the singular values do not",
-     "its root",
+    ("condition-rooted", "your condition number is the square root of the ratio. Only "
+                         "the eigenvalues of Y^T Y need a square root, and the "
+                         "singular values do not",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), np.sqrt(s[0] / s[n - 1]))),
-    ("condition-inverted", "the condition number is inverted. Divide the largest "
-     "singular value by the smallest one, so that the result is at least 1",
-     "the smallest over the largest",
+    ("condition-inverted", "your code inverts the condition number. Divide the largest "
+                           "singular value by the smallest one, so that the result is "
+                           "at least 1",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), s[n - 1] / s[0])),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(
+    row.wrong(slug, says)(
         lambda Y, rtol, told=told: told(
             np.linalg.svd(Y, compute_uv=False),
             rtol,
@@ -138,10 +134,10 @@ for slug, says, redone, told in (
 
 @row.wrongs
 def _(Y, rtol):
-    """columns-scaled: the columns of Y are divided by their norms first, which changes
-      the singular values => the result with columns of norm 1
-    columns-centred: the mean of each column of Y is subtracted first, but the model tau
-      = Y phi has no constant term => the result without the means
+    """columns-scaled: your code divides the columns of Y by their norms first, which
+      changes the singular values
+    columns-centred: your code subtracts the mean of each column of Y first, but the
+      model tau = Y phi has no constant term
     """
     return {
         "columns-scaled": counted(Y / np.linalg.norm(Y, axis=0), rtol),

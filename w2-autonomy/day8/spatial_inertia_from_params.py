@@ -25,17 +25,17 @@ def _(rng):
 
 @row.wrongs
 def _(phi):
-    """products-negative: the products Ixy, Ixz and Iyz have the wrong sign. phi
-      contains the entries of the matrix I, so copy them unchanged => the result
-      with -Ixy, -Ixz and -Iyz
-    row-by-row: the six entries of I are read in the order Ixx, Ixy, Iyy, Ixz, Iyz, Izz.
-      In phi the three diagonal entries come first => I in that order
-    triangle-by-rows: the six entries of I are read in the order Ixx, Ixy, Ixz, Iyy,
-      Iyz, Izz. In phi the three diagonal entries come first => I in that order
-    first-moment-times-m: phi[1:4] is multiplied by m, but it is the first moment m c
-      already => the result with m [h] for [h]
-    corners-swapped: the off-diagonal blocks are swapped: [h] belongs at the upper
-      right and [h]^T at the lower left => the result with -h
+    """products-negative: the products Ixy, Ixz and Iyz have the wrong sign in your
+      matrix. The argument phi contains the entries of the matrix I, so copy them
+      unchanged
+    row-by-row: your code reads the six entries of I in the order Ixx, Ixy, Iyy, Ixz,
+      Iyz, Izz. In phi the three diagonal entries come first
+    triangle-by-rows: your code reads the six entries of I in the order Ixx, Ixy, Ixz,
+      Iyy, Iyz, Izz. In phi the three diagonal entries come first
+    first-moment-times-m: your code multiplies phi[1:4] by m, but it is already the
+      first moment m c
+    corners-swapped: your code swaps the off-diagonal blocks. [h] belongs in the upper
+      right and [h]^T in the lower left
     """
     m, *h = phi[:4]
     changed = {
@@ -50,18 +50,18 @@ def _(phi):
 
 @row.wrongs
 def _(phi):
-    """lower-half-zero: the products Ixy, Ixz and Iyz are only above the diagonal, but I
-      is symmetric
-    inertia-about-the-centre: m [c] [c]^T is added to I, but I in phi is about the
-      origin and already includes this term => the result with I + m [c] [c]^T
-    steiner-without-m: [h] [h]^T is added to I, but I in phi is already about the origin
-      and needs no further term => the result with I + [h] [h]^T
-    corner-not-transposed: both off-diagonal blocks are [h]. The lower left block should
-      be [h]^T => the result with [h] twice
-    corner-negated: both off-diagonal blocks are [h]^T. The upper right block should be
-      [h] => the result with [h]^T twice
-    velocity-first: the blocks are in the order (v; omega). A twist is (omega; v) in
-      this course
+    """lower-half-zero: your matrix has the products Ixy, Ixz and Iyz only above the
+      diagonal, but I is symmetric
+    inertia-about-the-centre: your code adds m [c] [c]^T to I, but I in phi is about the
+      origin and already includes this term
+    steiner-without-m: your code adds [h] [h]^T to I, but I in phi is already about the
+      origin and needs no further term
+    corner-not-transposed: both of your off-diagonal blocks are [h]. The lower left
+      block should be [h]^T
+    corner-negated: both of your off-diagonal blocks are [h]^T. The upper right block
+      should be [h]
+    velocity-first: your blocks are in the order (v; omega), but a twist is (omega; v)
+      in this course
     """
     G = right(phi)
     C = skew(phi[1:4])

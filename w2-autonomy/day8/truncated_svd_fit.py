@@ -32,8 +32,9 @@ def of_the_values(case: Case) -> Finding | None:
         says = miscounted(more, fewer, f"of {len(case.S)} calls")
         return Finding("cut-elsewhere", says)
     if all(one[-1] > 0 and np.allclose(one, one[-1], rtol=0.1) for one in added):
-        says = f"Every parameter is reduced: up to {max(one[-1] for one in added):.3g} "
-        says += "is added to the diagonal of Y^T Y (ridge regression)."
+        most = max(one[-1] for one in added)
+        says = f"Your code reduces every parameter, because it adds up to {most:.3g} "
+        says += "to the diagonal of Y^T Y (ridge regression)."
         return Finding("ridge", says)
     return columns_left_out(case) or not_the_smallest(case)
 
@@ -67,7 +68,7 @@ def not_the_smallest(case: Case) -> Finding | None:
         longest = max(longest, ratio)
     says = "Your parameters have the same residual as the correct ones, but not the "
     says += f"minimum norm: their norm is up to {longest:.3g} times as large. A "
-    says += "combination that the data do not determine has to be 0."
+    says += "combination that the data do not determine should be 0."
     return Finding("not-the-smallest", says)
 
 
@@ -114,30 +115,29 @@ def parts(Y, rtol):
 
 @row.wrongs
 def _(Y, tau, rtol):
-    """nothing-cut: all singular values are used. A combination of parameters that the
-      data do not determine is then fitted to noise => the fit with all singular values
-    rtol-absolute: the singular values are compared with rtol itself. Compare them with
-      rtol times the largest => the result with rtol as an absolute limit
-    cut-by-the-sum: the singular values are compared with rtol times their sum. Compare
-      them with rtol times the largest => the result with the sum
-    cut-by-the-norm: the singular values are compared with rtol times the Frobenius norm
-      of Y. Compare them with rtol times the largest => the result with this norm
+    """nothing-cut: your code uses all singular values, so noise decides those
+      combinations of parameters that the data do not determine
+    rtol-absolute: your code compares the singular values with rtol itself. Compare them
+      with rtol times the largest
+    cut-by-the-sum: your code compares the singular values with rtol times their sum.
+      Compare them with rtol times the largest
+    cut-by-the-norm: your code compares the singular values with rtol times the
+      Frobenius norm of Y. Compare them with rtol times the largest
     cut-by-rows: your function multiplies rtol by the number of rows, as NumPy does with
-      its default tolerance. Compare the singular values with rtol times the largest =>
-      the result with rtol times the rows
-    V-for-its-transpose: V^T is used instead of V. The function numpy.linalg.svd returns
-      V^T => the result with V^T for V
-    cut-not-squared: the eigenvalues of Y^T Y are squares of the singular values, so
-      they must be compared with rtol^2 times the largest => the result with the square
-      root of rtol
-    ridge: a constant is added to the diagonal of Y^T Y, which reduces every parameter,
-      even those that the data determine => (Y^T Y + 1)^-1 Y^T tau
-    mean-taken-off: the mean of tau is subtracted first, but the model tau = Y phi has
-      no constant term => the fit to tau minus its mean
-    times-s: the fit multiplies by the singular values. The pseudo-inverse of Y divides
-      by them => V S U^T tau
-    first-columns: only the first r columns of Y are fitted, where r is the rank. These
-      columns need not be independent => the fit to them, with 0 for the others
+      its default tolerance. Compare the singular values with rtol times the largest
+    V-for-its-transpose: your code uses V^T instead of V. The function numpy.linalg.svd
+      returns V^T
+    cut-not-squared: your code compares the eigenvalues of Y^T Y with rtol times the
+      largest. They are squares of the singular values, so compare them with rtol^2
+      times the largest
+    ridge: your code adds a constant to the diagonal of Y^T Y, which reduces every
+      parameter, even those that the data determine
+    mean-taken-off: your code subtracts the mean of tau first, but the model tau = Y phi
+      has no constant term
+    times-s: your fit multiplies by the singular values. The pseudo-inverse of Y divides
+      by them
+    first-columns: your code fits only the first r columns of Y, where r is the rank.
+      These columns need not be independent
     """
     U, s, Vt = parts(Y, rtol)
     _, every, turned = np.linalg.svd(Y, full_matrices=False)

@@ -21,24 +21,25 @@ def noise(a, b, c, accel_psd):
 
 @row.wrongs
 def _(dt, accel_psd):
-    """F-without-dt: F has 1 instead of dt, which is correct for a period of one second
-      only
-    F-identity: F is the identity. The angle should change by dt times the velocity
-    Q-diagonal-only: Q is diagonal; a change of the velocity during dt moves the angle
-      as well, so their errors are correlated
-    Q-of-a-held-acceleration: Q belongs to an acceleration that is constant over dt
+    """F-without-dt: your F has 1 instead of dt, which is correct for a period of one
+      second only
+    F-identity: your F is the identity. The angle should change by dt times the velocity
+    Q-diagonal-only: your Q is diagonal, but a change of the velocity during dt also
+      moves the angle, so their errors are correlated
+    Q-of-a-held-acceleration: your Q belongs to an acceleration that is constant over dt
       (dt^4 / 4, dt^3 / 2, dt^2). White noise gives dt^3 / 3, dt^2 / 2 and dt
-    Q-is-q-1: Q is accel_psd times the identity; Q should depend on dt, and the angle
-      and the velocity have different units
-    Q-is-q-dt-1: Q is accel_psd dt times the identity; the noise acts on the velocity,
-      and the angle only integrates it
-    Q-speed-only: Q has only the entry of the velocity, accel_psd dt; a change of the
-      velocity during dt moves the angle as well
-    q-squared: accel_psd is squared, but a power spectral density is not a standard
-      deviation
-    off-diagonal-sign: the entries off the diagonal of Q are negative; a positive change
-      of the velocity moves the angle in the positive direction
-    speed-first: the rows and columns of Q are swapped; the state is (angle; velocity)
+    Q-is-q-1: your Q is accel_psd times the identity. Q should depend on dt, and the
+      angle and the velocity have different units
+    Q-is-q-dt-1: your Q is accel_psd dt times the identity, but the noise acts on the
+      velocity, and the angle only integrates it
+    Q-speed-only: your Q has only the entry of the velocity, accel_psd dt, but a change
+      of the velocity during dt also moves the angle
+    q-squared: your code squares accel_psd, but a power spectral density is not a
+      standard deviation
+    off-diagonal-sign: the entries off the diagonal of your Q are negative, but a
+      positive change of the velocity moves the angle in the positive direction
+    speed-first: your code swaps the rows and columns of Q. The state is (angle;
+      velocity)
     """
     F, Q = constant_velocity(dt, accel_psd)
     a, b, c = dt**3 / 3, dt**2 / 2, dt
@@ -61,7 +62,10 @@ def _(dt, accel_psd):
     }
 
 
-@row.wrong("answers-swapped", "the two results are swapped: return F first, then Q")
+@row.wrong(
+    "answers-swapped",
+    "your code swaps the two results. It should return F first, then Q",
+)
 def _(dt, accel_psd):
     return constant_velocity(dt, accel_psd)[::-1]
 

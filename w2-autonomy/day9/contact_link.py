@@ -47,17 +47,20 @@ def _(residual, threshold):
       there is none, as np.argmax does. Return the last one, or 0 if there is none
     first-joint 3: your function returns the first joint over its threshold, counted
       from 0. Return the last one, counted from 1
-    from-zero: the joints are counted from 0; joint1 is 1, because 0 means no contact
-    from-zero 2: the joints are counted from 0, and -1 means no contact; joint1 is 1,
-      and 0 means no contact
-    negative-only: only residuals below minus the threshold are detected; a contact
-      torque may have either sign
-    sign-lost-first: only positive residuals are compared, and the first joint is
-      returned. Compare the absolute values, and return the last joint
-    sign-lost-first 2: only positive residuals are compared, and the first joint is
-      returned, or 1 if there is none. Compare the absolute values, and return the last
-    sign-lost-from-zero: only positive residuals are compared, and joints are counted
-      from 0. Compare the absolute values, and count from 1
+    from-zero: your code counts the joints from 0. Joint 1 has the number 1, because 0
+      means no contact
+    from-zero 2: your code counts the joints from 0 and returns -1 without a contact.
+      Joint 1 has the number 1, and 0 means no contact
+    negative-only: your code detects only residuals below minus the threshold, but a
+      contact torque may have either sign
+    sign-lost-first: your code compares only positive residuals with the thresholds and
+      returns the first joint above its threshold. Compare the absolute values, and
+      return the last joint
+    sign-lost-first 2: your code compares only positive residuals with the thresholds
+      and returns the first joint above its threshold, or 1 if there is none. Compare
+      the absolute values, and return the last joint
+    sign-lost-from-zero: your code compares only positive residuals with the thresholds
+      and counts the joints from 0. Compare the absolute values, and count from 1
     largest: your function returns the joint with the largest residual. A longer lever
       arm causes a larger torque, so return the last joint over its threshold
     largest 2: your function returns the joint with the largest residual, even if this
@@ -77,20 +80,22 @@ def _(residual, threshold):
     all-or-none: your function returns 7 as soon as one joint is over its threshold.
       Return the last such joint
     last-of-none: your function returns 7 if no joint is over its threshold. Return 0
-    from-the-tip: the joints are counted from the tip; joint1 is 1
-    until-one-does-not: the search stops at the first joint under its threshold; a later
-      joint may be over its threshold
-    largest-threshold: every joint is compared with the largest threshold; each joint
-      has its own
-    smallest-threshold: every joint is compared with the smallest threshold; each joint
-      has its own
-    last-joint-decides: the result is 7 if joint 7 is over its threshold, else 0: does
-      your loop overwrite an earlier result?
-    last-joint-left-out: joint 7 is omitted: does your loop end one joint too early?
+    from-the-tip: your code counts the joints from the tip. Count them from the base,
+      where joint1 has the number 1
+    until-one-does-not: your search stops at the first joint under its threshold, but a
+      later joint may be over its threshold
+    largest-threshold: your code compares every joint with the largest threshold, but
+      each joint has its own threshold
+    smallest-threshold: your code compares every joint with the smallest threshold, but
+      each joint has its own threshold
+    last-joint-decides: your result is 7 if joint 7 is over its threshold, and otherwise
+      0. Does your loop overwrite an earlier result?
+    last-joint-left-out: your code omits joint 7. Does your loop end one joint too
+      early?
     numbers-added: your function adds the numbers of all joints over their thresholds.
       Return only the last number
-    sum-over: the sum of all absolute residuals is compared. Compare the residual of
-      each joint with its own threshold
+    sum-over: your code compares the sum of all absolute residuals with the thresholds.
+      Compare the absolute residual of each joint with its own threshold
     """
     size = np.abs(residual)
     over = size > threshold

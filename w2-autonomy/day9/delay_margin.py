@@ -25,45 +25,45 @@ def margin(
     return angle(kp, kd, found) / by(found)
 
 
-for slug, says, redone, other in (
-    ("at-omega", "w is sqrt(kp), the crossover frequency of the proportional term "
-     "alone. The derivative term increases the amplitude, so w should be larger",
-     "w = sqrt(kp)", {"w": lambda kp, kd: np.sqrt(kp)}),
-    ("at-kd", "w is kd, the crossover frequency of the derivative term alone. The "
-     "proportional term increases the amplitude, so w should be larger", "w = kd",
+for slug, says, other in (
+    ("at-omega", "your w is sqrt(kp), the crossover frequency of the proportional term "
+                 "alone. The derivative term increases the amplitude, so w should be "
+                 "larger", {"w": lambda kp, kd: np.sqrt(kp)}),
+    ("at-kd", "your w is kd, the crossover frequency of the derivative term alone. The "
+              "proportional term increases the amplitude, so w should be larger",
      {"w": lambda kp, kd: kd}),
-    ("strengths-added", "w^2 is kp + kd^2. The two terms are a quarter of a period "
-     "apart, so the amplitude of their sum is sqrt(kp^2 + kd^2 w^2)", "w^2 = kp + kd^2",
+    ("strengths-added", "your w^2 is kp + kd^2. The two terms are a quarter of a "
+                        "period apart, so the amplitude of their sum is sqrt(kp^2 + "
+                        "kd^2 w^2)",
      {"w": lambda kp, kd: np.sqrt(kp + kd**2)}),
-    ("minus-in-the-root", "4 kp^2 is subtracted under the inner root. The solution of "
-     "w^4 - kd^2 w^2 - kp^2 = 0 has a plus sign there", "kd^4 - 4 kp^2",
+    ("minus-in-the-root", "your code subtracts 4 kp^2 under the inner root. The "
+                          "solution of w^4 - kd^2 w^2 - kp^2 = 0 has a plus sign there",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(abs(kd**4 - 4 * kp**2))) / 2)}),
-    ("half-left-out", "kd^2 in the root formula is not halved: the roots of "
-     "x^2 - kd^2 x - kp^2 = 0 are kd^2 / 2 +- sqrt(kd^4 / 4 + kp^2)",
-     "kd^2 + sqrt(kd^4 + kp^2) as w^2",
+    ("half-left-out", "your code does not halve kd^2 in the root formula. The roots of "
+                      "x^2 - kd^2 x - kp^2 = 0 are kd^2 / 2 +- sqrt(kd^4 / 4 + kp^2)",
      {"w": lambda kp, kd: np.sqrt(kd**2 + np.sqrt(kd**4 + kp**2))}),
-    ("neither-squared", "the equation is solved for w instead of w^2: its roots "
-     "contain kd^2, kd^4 and kp^2", "(kd + sqrt(kd^2 + 4 kp)) / 2 as w^2",
+    ("neither-squared", "your code solves the equation for w instead of w^2. Its roots "
+                        "contain kd^2, kd^4 and kp^2",
      {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**2 + 4 * kp)) / 2)}),
-    ("inverted", "the fraction in atan is inverted: the lead is the angle from the "
-     "proportional term kp towards the derivative term kd w", "atan(kp / (kd w))",
+    ("inverted", "your code inverts the fraction in atan. The lead is the angle from "
+                 "the proportional term kp towards the derivative term kd w",
      {"angle": lambda kp, kd, w: np.arctan(kp / (kd * w))}),
-    ("from-the-far-side", "the angle is pi minus the phase lead; the phase margin is "
-     "the distance from -180 degrees, which is the lead itself", "pi - atan(kd w / kp)",
+    ("from-the-far-side", "your angle is pi minus the phase lead, but the phase margin "
+                          "is the distance from -180 degrees, which is the lead itself",
      {"angle": lambda kp, kd, w: np.pi - np.arctan(kd * w / kp)}),
-    ("in-cycles", "the angle is divided by the frequency in Hz; the angle is in "
-     "radians, so divide by w in rad/s", "the margin times 2 pi",
+    ("in-cycles", "your code divides the angle by the frequency in Hz, but the angle "
+                  "is in radians, so divide by w in rad/s",
      {"by": lambda w: w / (2 * np.pi)}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(margin, **other))
+    row.wrong(slug, says)(partial(margin, **other))
 
 
 @row.wrongs
 def _(kp, kd):
-    """critical-only: the result is 0.6474 / sqrt(kp), which is the delay margin for
-      critical damping only => 0.6474 / sqrt(kp)
-    damper-alone: the result is pi / (2 kd), the delay margin without a proportional
-      term; kp changes the phase lead and the crossover frequency => pi / (2 kd)
+    """critical-only: your result is 0.6474 / sqrt(kp), which is the delay margin for
+      critical damping only
+    damper-alone: your result is pi / (2 kd), the delay margin without a proportional
+      term, but kp changes the phase lead and the crossover frequency
     """
     return {"critical-only": 0.6474 / np.sqrt(kp), "damper-alone": np.pi / 2 / kd}
 

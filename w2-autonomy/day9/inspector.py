@@ -5,16 +5,13 @@ observer estimates the external torque: seven bars next to J^T F, and a sphere m
 contact link that it names. The arm is simulated; the observer runs at 100 Hz.
 """
 
-from functools import partial
+from functools import cache, partial
 
 import mujoco
 import numpy as np
 
-from labkit.inspector import words
+from labkit.inspector import declared as ui
 from labkit.inspector.draw import joined
-from labkit.inspector.page import Page
-from labkit.inspector.robot import Robot
-from labkit.inspector.tab import PLAYS, Tab
 from labkit.lesson.day import find_day
 from labkit.lesson.lab_module import lab_of
 from robo47 import estimation, panda, simulate
@@ -23,103 +20,86 @@ from robo47.checks import Array
 import day9_mujoco
 
 LAB = lab_of(find_day(9))  # its gain and threshold
-RATE, HZ = 100.0, 25.0  # of the observer, and of the page
+RATE = 100.0  # of the observer
 PULL = 100.0  # N per metre of distance to the handle
 FULL, MOST = 12.0, 999.0  # N m, the end of a bar, and the largest number shown
-UNITS = {"kinetic_energy_gradient": "N m", "momentum_observer_step": "(N m or N m s)"}
-AGAIN, LET_GO, DOWN = "start / stop", "let go", "10 N down"
 PLACES = [day9_mujoco.FLANGE, *[f"link{i}" for i in range(7, 0, -1)]]
-ARM_JOINTS = [f"joint{i}" for i in range(1, 8)]
 
+bare = cache(partial(panda.load, "panda_nohand", drive="torque"))
 dressed = partial(panda.load, "panda_nohand", meshes=True, drive="torque")
 
 
-class Feel(Tab):
+class Feel(ui.Declared):
     """Push any link; the arm names the contact link."""
 
     title = "Feel"
-    wide = True
+    library = estimation
+    functions = {
+        "kinetic_energy_gradient": "N m", "momentum_observer_step": "(N m or N m s)",
+        "contact_link": "",
+    }  # fmt: skip
+    hz = 25.0
 
-    def __init__(self, page: Page) -> None:
-        """Hold the arm at its configuration, without a force."""
-        super().__init__(page)
-        self.model = panda.load("panda_nohand", drive="torque")
-        self.arm = panda.arm(self.model)
-        self.place = PLACES[0]
-        self.force = np.zeros(3)
-        self.gain, self.threshold = LAB.GAIN, LAB.THRESHOLD
-        self.goal_q = page.q[:7].copy()
-        self.own = page.own(estimation, units=UNITS)
-        self.again()
-        page.choice("pull at", PLACES, self.pull_at)
-        page.buttons([AGAIN, DOWN, LET_GO], self.press)
-        gain = partial(setattr, self, "gain")
-        page.slider("gain", 5, 100, self.gain, gain, unit="1/s", step=5)
-        least = partial(setattr, self, "threshold")
-        page.slider("threshold", 0.1, 5, self.threshold, least, unit="N m", step=0.1)
-        self.numbers = page.html()
-        title = "residual; marks: J^T F of your pull"
-        self.bars = page.bars(ARM_JOINTS, FULL, "N m", title, "both")
-        self.loop = page.animate(lambda seconds: self.show(), HZ, work=self.step)
-        self.drawn = Robot(page, self.model, dressed)
-        self.arrow = page.draw.arrows(np.zeros((1, 2, 3)), "red", 0.008)
-        self.named = page.draw.sphere(np.zeros(3), 0.09, "orange", 0.5)
-        self.target = page.draw.target(page.pose("ee"), self.drag)
-        page.legend({"your pull": "red", "the contact link": "orange"})
-        self.show()
+    place = ui.choice("pull at", PLACES, then="let_go")
+    does = ui.buttons("start / stop", "let go", "10 N down", then="press")
+    gain = ui.slider("gain", 5, 100, LAB.GAIN, "1/s", 5, then="frame")
+    threshold = ui.slider("threshold", 0.1, 5, LAB.THRESHOLD, "N m", 0.1, then="frame")
+    bars = ui.panel.bars(
+        panda.ARM_JOINTS, FULL, "N m", "residual; marks: J^T F of your pull"
+    )
+    drawn = ui.panel.robot(bare, dressed)
+    arrow = ui.scene.arrows(ui.NOWHERE, "red", 0.008, legend="your pull")
+    named = ui.yours.sphere(np.zeros(3), 0.09, "orange", 0.5, legend="the contact link")
+    target = ui.handle("drag")
 
-    def again(self) -> None:
-        """Put the arm at its goal, with a residual of zero."""
+    def prepare(self) -> None:
+        self.model, self.arm = bare(), panda.arm(bare())
+        self.goal_q = self.page.q[:7].copy()
+        self.rest()
+
+    def rest(self) -> None:
+        """Put the arm at its goal, with a residual of zero and no pull."""
         self.data = simulate.start(self.model, self.goal_q)
-        self.residual = np.zeros(7)
-        self.integral = np.zeros(7)  # p of an arm at rest
-        self.link = 0
+        self.force, self.residual = np.zeros(3), np.zeros(7)
+        self.integral, self.link = np.zeros(7), 0  # p of an arm at rest
         self.before: tuple[Array, ...] | None = None
 
-    def begin(self) -> None:
-        """Pull downwards with 10 N at an arm whose residual is zero."""
-        self.loop.stop()
-        self.again()
-        self.press(DOWN)
-        self.loop.lasts = PLAYS
+    def restart(self) -> None:
+        self.rest()
+        self.pull(np.array([0.0, 0.0, -10.0]))
 
-    def lost(self) -> None:
-        """Clear the residual, and name no link."""
-        self.bars.clear()
-        self.named.visible = False
-        self.numbers.content = ""
-
-    def pull_at(self, place: str) -> None:
-        """Choose the point that the handle pulls at."""
-        self.place = place
-        self.press(LET_GO)
+    def pull(self, force: Array) -> None:
+        """Pull with a force, N, (3,)."""
+        self.force = force
+        T = np.eye(4)
+        T[:3, 3] = self.point() + force / PULL
+        self.target.place(T)
+        self.frame()
 
     def drag(self, T: Array) -> None:
         """Pull towards the handle."""
         self.force = PULL * (T[:3, 3] - self.point())
         self.loop.start()
-        self.show()
 
-    def press(self, name: str) -> None:
-        """Start, stop, pull downwards, or let go."""
-        if name == AGAIN:
+    def let_go(self) -> None:
+        """Pull no more."""
+        self.pull(np.zeros(3))
+
+    def press(self) -> None:
+        """Do what the buttons say."""
+        if self.does == "start / stop":
             self.loop.toggle()
-            return
-        self.force = np.zeros(3)
-        if name == DOWN:
-            self.force[2] = -10.0
+        elif self.does == "let go":
+            self.let_go()
+        else:
+            self.pull(np.array([0.0, 0.0, -10.0]))
             self.loop.start()
-        T = np.eye(4)
-        T[:3, 3] = self.point() + self.force / PULL
-        self.target.place(T)
-        self.show()
 
     def on_move(self, q: Array) -> None:
-        """Take the page's configuration as the goal."""
         self.goal_q = q[:7].copy()
         if not self.loop.running:
-            self.again()
-        self.show()
+            self.rest()
+            self.frame()
 
     def point(self) -> Array:
         """Return the point at which the handle pulls, m, (3,)."""
@@ -130,10 +110,10 @@ class Feel(Tab):
             return data.site(self.place).xpos.copy()
         return data.body(self.place).xipos.copy()
 
-    def step(self, seconds: float) -> None:
-        """Simulate the time of one picture; it waits for the student's observer."""
+    def advance(self, seconds: float) -> None:
         push = day9_mujoco.push(self.place, self.force, 0.0)
-        simulate.run(self.model, self.data, self.law, 1.0 / HZ, rate=RATE, push=push)
+        given = (self.model, self.data, self.law, 1.0 / self.hz)
+        simulate.run(*given, rate=RATE, push=push)
 
     def law(self, t: float, q: Array, qd: Array) -> Array:
         """Hold the arm, and run the observer."""
@@ -144,35 +124,31 @@ class Feel(Tab):
             self.residual, self.integral = self.own.momentum_observer_step(
                 *given, *known
             )
-        limit = np.full(7, self.threshold)
         slope, self.link = self.own.many(
             ("kinetic_energy_gradient", now.J_space, now.G, qd),
-            ("contact_link", self.residual, limit),
+            ("contact_link", self.residual, np.full(7, self.threshold)),
         )
         hold = day9_mujoco.tracking(self.arm, day9_mujoco.hold(self.goal_q))
         tau = hold(t, q, qd)
         self.before = tau, slope, now.gravity_torque, self.arm.damping, qd
         return tau
 
-    def show(self) -> None:
-        """Draw the arm, the pull and the contact link, and show the residual."""
-        q = self.data.qpos[:7].copy()
+    def frame(self, seconds: float = 0.0) -> None:
+        q, at = self.data.qpos[:7].copy(), self.point()
         self.drawn.show(self.data.qpos)
-        at = self.point()
         self.arrow.visible = bool(self.force.any())
-        if self.force.any():
-            self.arrow.points = joined([at, at + self.force / PULL])
+        self.arrow.points = joined([at, at + self.force / PULL])
         truth = LAB.mujoco_external_torque(self.model, q, self.place, self.force)
         self.bars.show(np.clip(self.residual, -MOST, MOST), truth)
-        link = int(self.link)
-        self.named.visible = 1 <= link <= 7
+        self.named.visible = 1 <= self.link <= 7
         if self.named.visible:
-            self.named.position = self.arm.at(q).coms_world[link - 1]
+            self.named.position = self.arm.at(q).coms_world[int(self.link) - 1]
+
+    def says(self, *_):
         newton = ", ".join(f"{x:z.1f}" for x in self.force)
-        says = f"contact on link {link}" if link else "no contact"
-        self.numbers.content = words.line(
-            f"You pull at {self.place} with ({newton}) N: {says}.", "feel"
-        )
+        names = f"contact on link {int(self.link)}" if self.link else "no contact"
+        says = f"You pull at {self.place} with ({newton}) N. Your functions: {names}."
+        yield says, " ".join(self.functions) if self.before else None
 
 
 TABS = [Feel]

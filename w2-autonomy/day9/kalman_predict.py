@@ -24,14 +24,13 @@ def _(rng):
 
 @row.wrongs
 def _(x, P, F, Q):
-    """transposed-on-the-left: the new covariance is F^T P F + Q. If the error e becomes
-      F e, e e^T becomes F e e^T F^T => F^T P F + Q
-    P-not-carried: the new covariance is P + Q; F changes the old error as well, so
-      transform P by F => P + Q
-    Q-carried-too: Q is also transformed by F. Add Q after the transformation => F (P +
-      Q) F^T
+    """transposed-on-the-left: your new covariance is F^T P F + Q. If the error e
+      becomes F e, then e e^T becomes F e e^T F^T, so F belongs on the left
+    P-not-carried: your new covariance is P + Q. F also changes the old error, so
+      transform P by F
+    Q-carried-too: your code also transforms Q by F. Add Q after the transformation
     entry-by-entry: your function multiplies F and P entry by entry with `*`. Use `@`
-      for the matrix product => `*` instead of `@`
+      for the matrix product
     """
     Ps = {
         "transposed-on-the-left": F.T @ P @ F + Q,

@@ -61,64 +61,65 @@ def after_it(P, H, R, after, new_P):
     return H @ new_P @ H.T + R
 
 
-for slug, says, redone, other in (
-    ("surprise-sign", "the innovation is H x - z, so the state moves away from the "
-     "reading. The innovation should be z - H x", "H x - z",
+for slug, says, other in (
+    ("surprise-sign", "your innovation is H x - z, so the state moves away from the "
+                      "reading. The innovation should be z - H x",
      {"of": lambda z, Hx: Hx - z}),
-    ("R-rooted", "the square root of R is used; R is already a covariance", "sqrt(R)",
+    ("R-rooted", "your code uses the square root of R, but R is already a covariance",
      {"of_R": lambda R: np.sqrt(np.abs(R))}),
-    ("divided-by-R", "K is P H^T R^-1, which holds for the updated P only. Use the "
-     "covariance S of the innovation", "P H^T R^-1",
+    ("divided-by-R", "your K is P H^T R^-1, which holds for the updated P only. Use "
+                     "the covariance S of the innovation",
      {"K": lambda P, H, S, R: P @ H.T @ np.linalg.inv(R)}),
-    ("P-from-the-right", "the new covariance is P (I - K H); the factor belongs on the "
-     "left, (I - K H) P",
-     "P (I - K H)", {"new_P": lambda P, K, S, H, R: P @ without(K, H)}),
-    ("P-I-minus-K-H", "the new covariance is I - K H. It should be (I - K H) P",
-     "I - K H", {"new_P": lambda P, K, S, H, R: without(K, H)}),
-    ("P-minus-K-H", "the new covariance is P - K H. Subtract K H P, which is K S K^T",
-     "P - K H", {"new_P": lambda P, K, S, H, R: P - K @ H}),
-    ("P-joseph-short", "the new covariance is (I - K H) P (I - K H)^T. The Joseph form "
-     "also has the term K R K^T", "the Joseph form without K R K^T",
+    ("P-from-the-right", "your new covariance is P (I - K H), but the factor belongs "
+                         "on the left, (I - K H) P",
+                         {"new_P": lambda P, K, S, H, R: P @ without(K, H)}),
+    ("P-I-minus-K-H", "your new covariance is I - K H. It should be (I - K H) P",
+     {"new_P": lambda P, K, S, H, R: without(K, H)}),
+    ("P-minus-K-H", "your new covariance is P - K H. Subtract K H P, which is K S K^T",
+     {"new_P": lambda P, K, S, H, R: P - K @ H}),
+    ("P-joseph-short", "your new covariance is (I - K H) P (I - K H)^T. The Joseph "
+                       "form also has the term K R K^T",
      {"new_P": lambda P, K, S, H, R: without(K, H) @ P @ without(K, H).T}),
-    ("P-K-R-K-besides", "K R K^T is added to P - K S K^T. This term belongs to the "
-     "Joseph form, (I - K H) P (I - K H)^T + K R K^T", "P - K S K^T + K R K^T",
+    ("P-K-R-K-besides", "your code adds K R K^T to P - K S K^T. This term belongs to "
+                        "the Joseph form, (I - K H) P (I - K H)^T + K R K^T",
      {"new_P": lambda P, K, S, H, R: P - K @ S @ K.T + K @ R @ K.T}),
-    ("x-only-where-read", "only the measured entries of x are corrected; P correlates "
-     "the other entries with them, so K corrects all", "x with the others unchanged",
+    ("x-only-where-read", "your code corrects only the measured entries of x. P "
+                          "correlates the other entries with them, so K corrects all "
+                          "entries",
      {"new_x": lambda x, K, y, z, H: np.where((H != 0.0).any(axis=0), x + K @ y, x)}),
-    ("x-by-the-reading", "K is multiplied by the reading z. Multiply it by the "
-     "innovation z - H x", "x + K z", {"new_x": lambda x, K, y, z, H: x + K @ z}),
-    ("nis-with-R", "the NIS uses R^-1; the innovation also contains the error of x, so "
-     "use S^-1", "R instead of S in the NIS",
+    ("x-by-the-reading", "your code multiplies K by the reading z. Multiply it by the "
+                         "innovation z - H x",
+                         {"new_x": lambda x, K, y, z, H: x + K @ z}),
+    ("nis-with-R", "your NIS uses R^-1. The innovation also contains the error of x, "
+                   "so use S^-1",
      {"nis": lambda y, S, known: weighed(y, known[2])}),
-    ("nis-without-R", "the NIS uses (H P H^T)^-1; the innovation also contains the "
-     "noise of the reading, so use S^-1", "H P H^T instead of S in the NIS",
+    ("nis-without-R", "your NIS uses (H P H^T)^-1. The innovation also contains the "
+                      "noise of the reading, so use S^-1",
      {"nis": lambda y, S, known: weighed(y, known[1] @ known[0] @ known[1].T)}),
-    ("nis-after", "the NIS uses the residual z - H x of the updated x. Use the "
-     "innovation, which is computed before the update", "the NIS of the updated x",
+    ("nis-after", "your NIS uses the residual z - H x of the updated x. Use the "
+                  "innovation, which is computed before the update",
      {"nis": lambda y, S, known: weighed(known[3], S)}),
-    ("nis-with-new-P", "the NIS uses S of the updated P. Use S of the predicted P",
-     "the NIS with the updated P",
+    ("nis-with-new-P", "your NIS uses S of the updated P. Use S of the predicted P",
      {"nis": lambda y, S, known: weighed(y, after_it(*known))}),
-    ("nis-all-after", "the NIS uses the updated x and P. Use the innovation and S, "
-     "which are computed before the update", "the NIS of the updated x and P",
+    ("nis-all-after", "your NIS uses the updated x and P. Use the innovation and S, "
+                      "which are computed before the update",
      {"nis": lambda y, S, known: weighed(known[3], after_it(*known))}),
-    ("nis-diagonal", "the NIS uses only the diagonal of S; the entries of the "
-     "innovation may be correlated", "the diagonal of S in the NIS",
+    ("nis-diagonal", "your NIS uses only the diagonal of S, but the entries of the "
+                     "innovation may be correlated",
      {"nis": lambda y, S, known: y @ (y / np.diag(S))}),
-    ("nis-per-number", "the NIS is divided by the number m of entries; the mean of the "
-     "NIS is m, not 1", "the NIS divided by m",
+    ("nis-per-number", "your code divides the NIS by the number m of entries, but the "
+                       "mean of the NIS is m, not 1",
      {"nis": lambda y, S, known: weighed(y, S) / len(y)}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(updated, **other))
+    row.wrong(slug, says)(partial(updated, **other))
 
 
 @row.wrongs
 def _(x, P, z, H, R):
-    """prior-P-in-the-gain: the gain P H^T R^-1 belongs to the updated P; the predicted
-      P needs S^-1 instead of R^-1 => P H^T R^-1 with the predicted P
-    R-in-the-information: the information form uses R where it needs R^-1, the
-      information of the reading => R instead of R^-1
+    """prior-P-in-the-gain: your gain P H^T R^-1 belongs to the updated P. With the
+      predicted P, use S^-1 instead of R^-1
+    R-in-the-information: your information form uses R where it needs R^-1, the
+      information of the reading
     """
     _, new_P, nis = updated(x, P, z, H, R)
     y = z - H @ x

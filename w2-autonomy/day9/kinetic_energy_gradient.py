@@ -38,59 +38,64 @@ def gradient(
     return np.array(found)
 
 
-for slug, says, redone, other in (
-    ("slope-sign", "every sign is reversed. Relative to the rotated links, V_i rotates "
-     "in the opposite direction, so its derivative is -ad(S_i) V_i", "the negative",
+for slug, says, other in (
+    ("slope-sign", "your code reverses every sign. Relative to the rotated links, V_i "
+                   "rotates in the opposite direction, so its derivative is -ad(S_i) "
+                   "V_i",
      {"factor": 1.0}),
-    ("halved", "the result is halved. The twist appears twice in the energy V . G V / "
-     "2, so the factor 1/2 cancels in the derivative", "half of the gradient",
+    ("halved", "your code halves the result. The twist appears twice in the energy V . "
+               "G V / 2, so the factor 1/2 cancels in the derivative",
      {"factor": -0.5}),
-    ("own-link-only", "only the momentum of link i is used; joint i also rotates all "
-     "distal links, so sum their momenta", "the momentum of link i alone",
+    ("own-link-only", "your code uses only the momentum of link i. Joint i also "
+                      "rotates all distal links, so sum their momenta",
      {"felt": lambda i: slice(i, i + 1)}),
-    ("later-links-only", "link i itself is omitted; the sum begins with link i",
-     "the sum over k > i", {"felt": lambda i: slice(i + 1, None)}),
-    ("last-link-left-out", "the momentum of link 7 is omitted: does your loop end one "
-     "link too early?", "the sum over k < 7", {"felt": lambda i: slice(i, -1)}),
-    ("last-link-only", "only the momentum of link 7 is used: does your loop overwrite "
-     "entry i for each k instead of adding to it?", "the sum over k = 7",
+    ("later-links-only",
+     "your code omits link i itself, but the sum begins with link i",
+     {"felt": lambda i: slice(i + 1, None)}),
+    ("last-link-left-out", "your code omits the momentum of link 7. Does your loop end "
+                           "one link too early?", {"felt": lambda i: slice(i, -1)}),
+    ("last-link-only", "your code uses only the momentum of link 7. Does your loop "
+                       "overwrite entry i for each k instead of adding to it?",
      {"felt": lambda i: slice(-1, None)}),
-    ("earlier-links", "the momenta of links 1 to i are summed; joint i rotates the "
-     "links i to 7", "the sum over k <= i", {"felt": lambda i: slice(0, i + 1)}),
-    ("all-links", "the momenta of all links are summed; joint i does not move the "
-     "links before it", "the sum over all k", {"felt": lambda i: slice(0, None)}),
-    ("omega-alone", "only the angular part of V_i is rotated; ad(S_i) acts on the "
-     "linear part as well", "ad of the angular part alone",
+    ("earlier-links", "your code sums the momenta of links 1 to i, but joint i rotates "
+                      "the links i to 7", {"felt": lambda i: slice(0, i + 1)}),
+    ("all-links", "your code sums the momenta of all links, but joint i does not move "
+                  "the links before it", {"felt": lambda i: slice(0, None)}),
+    ("omega-alone", "your code rotates only the angular part of V_i, but ad(S_i) acts "
+                    "on the linear part as well",
      {"turned": lambda S, V: np.append(np.cross(S[:3], V[:3]), np.zeros(3))}),
-    ("own-twist-only", "V_i contains the velocity of joint i only. Sum over the joints "
-     "1 to i", "V_i = S_i qd_i",
+    ("own-twist-only", "your V_i contains the velocity of joint i only. Sum over the "
+                       "joints 1 to i",
      {"twists": lambda S, qd: S * qd[:, None]}),
-    ("outer-twists", "V_i is the sum over the joints i to 7; link i is moved by the "
-     "joints 1 to i", "the sum over the joints i to 7",
+    ("outer-twists", "your V_i is the sum over the joints i to 7, but link i is moved "
+                     "by the joints 1 to i",
      {"twists": lambda S, qd: np.cumsum((S * qd[:, None])[::-1], axis=0)[::-1]}),
-    ("twists-one-late", "V_i omits the velocity of joint i itself: is it added after "
-     "V_i is used?", "V_(i-1) instead of V_i",
+    ("twists-one-late", "your V_i omits the velocity of joint i itself. Does your code "
+                        "add it after it uses V_i?",
      {"twists": lambda S, qd: np.cumsum(S * qd[:, None], axis=0) - S * qd[:, None]}),
-    ("one-late-for-all", "all links from i on have the twist V_(i-1); the momentum of "
-     "link k is G_k V_k", "G_k V_(i-1)",
+    ("one-late-for-all", "in your code, all links from i on have the twist V_(i-1), "
+                         "but the momentum of link k is G_k V_k",
      {"carries": lambda V, i: V * 0 + (V[i - 1] if i else 0)}),
-    ("twist-of-the-tip", "the twist of link 7 is rotated; joint i rotates the twist "
-     "V_i that arrives at link i", "V_7 instead of V_i", {"at": lambda V, i: V[-1]}),
-    ("one-twist-for-all", "all links from i on have the twist V_i; the momentum of "
-     "link k is G_k V_k", "G_k V_i", {"carries": lambda V, i: V * 0 + V[i]}),
-    ("tip-twist-for-all", "all links have the twist of link 7; the momentum of link k "
-     "is G_k V_k", "G_k V_7", {"carries": lambda V, i: V * 0 + V[-1]}),
+    ("twist-of-the-tip", "your code rotates the twist of link 7, but joint i rotates "
+                         "the twist V_i that arrives at link i",
+                         {"at": lambda V, i: V[-1]}),
+    ("one-twist-for-all", "in your code, all links from i on have the twist V_i, but "
+                          "the momentum of link k is G_k V_k",
+                          {"carries": lambda V, i: V * 0 + V[i]}),
+    ("tip-twist-for-all", "in your code, all links have the twist of link 7, but the "
+                          "momentum of link k is G_k V_k",
+                          {"carries": lambda V, i: V * 0 + V[-1]}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(gradient, **other))
+    row.wrong(slug, says)(partial(gradient, **other))
 
 
 @row.wrongs
 def _(J_space, G, qd):
-    """C-qd: the result is the Coriolis torque C qd; the gradient is C^T qd => C qd
-    minus-C-qd: the result is the negative Coriolis torque -C qd; the gradient is C^T qd
-      => -C qd
-    each-its-own-twist: the twist V_k of each link is rotated; all links from i on
-      receive the same change, -ad(S_i) V_i => ad(S_i) V_k
+    """C-qd: your result is the Coriolis torque C qd, but the gradient is C^T qd
+    minus-C-qd: your result is the negative Coriolis torque -C qd, but the gradient is
+      C^T qd
+    each-its-own-twist: your code rotates the twist V_k of each link, but all links from
+      i on receive the same change, -ad(S_i) V_i
     """
     C = dynamics.coriolis_matrix(J_space, G, qd)
     S = J_space.T

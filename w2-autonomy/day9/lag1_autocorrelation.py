@@ -35,55 +35,54 @@ def correlation(
 
 
 AS_IT_IS = {"above": lambda y: y}
-for slug, says, redone, other in (
-    ("mean-not-taken-off", "the mean is not subtracted: an offset alone makes "
-     "neighbours correlated", "y with its mean in both sums",
+for slug, says, other in (
+    ("mean-not-taken-off", "your code does not subtract the mean, but an offset alone "
+                           "makes neighbours correlated",
      {**AS_IT_IS, "below": lambda y: y}),
-    ("mean-left-in-the-products", "the mean is subtracted in the squares, but not in "
-     "the products", "the sum of products of y itself", AS_IT_IS),
-    ("mean-left-in-the-squares", "the mean is subtracted in the products, but not in "
-     "the squares", "the sum of squares of y itself", {"below": lambda y: y}),
-    ("squares-of-the-first", "the denominator omits the square of the last entry. Use "
-     "all n squares", "the sum of the first n - 1 squares",
+    ("mean-left-in-the-products", "your code subtracts the mean in the squares, but "
+                                  "not in the products", AS_IT_IS),
+    ("mean-left-in-the-squares", "your code subtracts the mean in the products, but "
+                                 "not in the squares", {"below": lambda y: y}),
+    ("squares-of-the-first", "your denominator omits the square of the last entry. Use "
+                             "all n squares",
      {"squares": lambda d: d[:-1] @ d[:-1]}),
-    ("squares-of-the-last", "the denominator omits the square of the first entry. Use "
-     "all n squares", "the sum of the last n - 1 squares",
+    ("squares-of-the-last", "your denominator omits the square of the first entry. Use "
+                            "all n squares",
      {"squares": lambda d: d[1:] @ d[1:]}),
-    ("two-sizes", "the denominator is the product of the norms of y[1:] and y[:-1]. "
-     "Use the sum of all n squares", "the product of the two norms",
+    ("two-sizes", "your denominator is the product of the norms of y[1:] and y[:-1]. "
+                  "Use the sum of all n squares",
      {"squares": lambda d: np.sqrt((d[1:] @ d[1:]) * (d[:-1] @ d[:-1]))}),
-    ("by-n-sigma", "the mean product is divided by the standard deviation. Divide by "
-     "the variance, so that the unit cancels", "the mean product over sigma",
+    ("by-n-sigma", "your code divides the mean product by the standard deviation. "
+                   "Divide by the variance, so that the unit cancels",
      {"squares": lambda d: np.sqrt(d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
-    ("mean-of-products", "the mean of n - 1 products is divided by the mean of n "
-     "squares. Divide the sum of the products by the sum of the squares",
-     "the quotient of the means",
+    ("mean-of-products", "your code divides the mean of n - 1 products by the mean of "
+                         "n squares. Divide the sum of the products by the sum of the "
+                         "squares",
      {"share": lambda n: n / (n - 1)}),
-    ("variance-for-sum", "the sum of the products is divided by the mean of the "
-     "squares. Divide the two sums", "the result times n", {"share": lambda n: n}),
-    ("mean-by-sum", "the mean of the products is divided by the sum of the squares. "
-     "Divide the two sums", "the result over n - 1", {"share": lambda n: 1 / (n - 1)}),
-    ("mean-by-sum", "the mean of the products is divided by the sum of the squares. "
-     "Divide the two sums", "the result over n", {"share": lambda n: 1 / n}),
-    ("lag-two", "each entry is multiplied by the second one after it. Use its direct "
-     "neighbour", "the lag-2 autocorrelation", {"pairs": lambda d: d[2:] @ d[:-2]}),
-    ("lag-zero", "each entry is multiplied by itself, so the result is always 1. "
-     "Multiply it by its neighbour", "a constant 1", {"pairs": lambda d: d @ d}),
-    ("round-the-corner", "the last entry is multiplied by the first, as with np.roll; "
-     "the first and the last entry are not neighbours", "np.roll",
+    ("variance-for-sum", "your code divides the sum of the products by the mean of the "
+                         "squares. Divide the two sums", {"share": lambda n: n}),
+    ("mean-by-sum", "your code divides the mean of the products by the sum of the "
+                    "squares. Divide the two sums", {"share": lambda n: 1 / (n - 1)}),
+    ("mean-by-sum", "your code divides the mean of the products by the sum of the "
+                    "squares. Divide the two sums", {"share": lambda n: 1 / n}),
+    ("lag-two", "your code multiplies each entry by the second entry after it. Use its "
+                "direct neighbour", {"pairs": lambda d: d[2:] @ d[:-2]}),
+    ("lag-zero", "your code multiplies each entry by itself, so the result is always "
+                 "1. Multiply it by its neighbour", {"pairs": lambda d: d @ d}),
+    ("round-the-corner", "your code multiplies the last entry by the first, as with "
+                         "np.roll, but the first and the last entry are not neighbours",
      {"pairs": lambda d: d @ np.roll(d, 1)}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(correlation, **other))
+    row.wrong(slug, says)(partial(correlation, **other))
 
 
 @row.wrongs
 def _(y):
-    """two-means: y[1:] and y[:-1] each have their own mean and norm, as in np.corrcoef.
-      Use one mean and all n squares => np.corrcoef(y[1:], y[:-1])[0, 1]
-    of-the-changes: the result is the autocorrelation of the changes of y. Use y itself
-      => the lag-1 autocorrelation of np.diff(y)
-    changes-squared: the result is the Durbin-Watson statistic, which is 2 for white
-      noise. Use the products of neighbours => the Durbin-Watson statistic
+    """two-means: your code uses a separate mean and norm for y[1:] and y[:-1], as
+      np.corrcoef does. Use one mean and all n squares
+    of-the-changes: your result is the autocorrelation of the changes of y. Use y itself
+    changes-squared: your result is the Durbin-Watson statistic, which is 2 for white
+      noise. Use the products of neighbours
     """
     d = centred(y)
     return {

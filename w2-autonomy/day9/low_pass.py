@@ -45,54 +45,53 @@ def filtered(
     return np.array(y)
 
 
-for slug, says, redone, other in (
-    ("rc-share", "alpha is dt / (dt + RC), which approximates 1 - exp(-dt / RC) for "
-     "low cutoffs only", "alpha = dt / (dt + RC)", {"alpha": lambda x: x / (1 + x)}),
-    ("share-turned-round", "alpha and 1 - alpha are swapped: the new sample should get "
-     "the weight alpha", "exp(-2 pi cutoff dt) as alpha",
+for slug, says, other in (
+    ("rc-share", "your alpha is dt / (dt + RC), which approximates 1 - exp(-dt / RC) "
+                 "for low cutoffs only", {"alpha": lambda x: x / (1 + x)}),
+    ("share-turned-round", "your code swaps alpha and 1 - alpha. The new sample should "
+                           "get the weight alpha",
      {"step": lambda y, now, before, a: now + a * (y - now)}),
-    ("euler-share", "alpha is 2 pi cutoff dt, an Euler step, which overshoots above 1. "
-     "Use the exact solution over dt", "alpha = 2 pi cutoff dt",
+    ("euler-share", "your alpha is 2 pi cutoff dt, an Euler step, which overshoots "
+                    "above 1. Use the exact solution over dt",
      {"alpha": lambda x: x}),
-    ("no-2-pi", "the factor 2 pi is missing: cutoff is in Hz, so the time constant is "
-     "1 / (2 pi cutoff)", "alpha = 1 - exp(-cutoff dt)",
+    ("no-2-pi", "your code omits the factor 2 pi. The argument cutoff is in Hz, so the "
+                "time constant is 1 / (2 pi cutoff)",
      {"of": lambda dt, f: f * dt}),
-    ("cutoff-for-time", "cutoff is used as the time constant, but it is a frequency in "
-     "Hz",
-     "alpha = 1 - exp(-dt / cutoff)", {"of": lambda dt, f: dt / f}),
-    ("two-for-e", "alpha uses powers of 2, as for a half-life; the decay is "
-     "exp(-2 pi cutoff dt)", "1 - 2^(-2 pi cutoff dt)",
+    ("cutoff-for-time", "your code uses cutoff as the time constant, but cutoff is a "
+                        "frequency in Hz", {"of": lambda dt, f: dt / f}),
+    ("two-for-e", "your alpha uses powers of 2, as for a half-life, but the decay is "
+                  "exp(-2 pi cutoff dt)",
      {"alpha": lambda x: 1 - 2.0**-x}),
-    ("from-zero", "y starts at 0, so the output first rises from there; y should start "
-     "at x[0]", "y_0 = 0", {"first": lambda x, a: 0.0}),
-    ("first-filtered", "y starts at alpha x[0], as if the output had been 0 before; y "
-     "should start at x[0]", "y_0 = alpha x_0", {"first": lambda x, a: a * x[0]}),
-    ("by-the-sample-before", "the previous sample is used instead of the previous "
-     "output, so the filter has no memory", "alpha x_k + (1 - alpha) x_(k-1)",
+    ("from-zero", "your y starts at 0, so the output first rises from there. The "
+                  "output y should start at x[0]", {"first": lambda x, a: 0.0}),
+    ("first-filtered", "your y starts at alpha x[0], as if the output had been 0 "
+                       "before. The output y should start at x[0]",
+                       {"first": lambda x, a: a * x[0]}),
+    ("by-the-sample-before", "your code uses the previous sample instead of the "
+                             "previous output, so the filter has no memory",
      {"step": lambda y, now, before, a: a * now + (1 - a) * before}),
-    ("change-added", "alpha times the change of x is added. Add alpha times the "
-     "difference between x and the previous output", "y + alpha (x_k - x_(k-1))",
+    ("change-added", "your code adds alpha times the change of x. Add alpha times the "
+                     "difference between x and the previous output",
      {"step": lambda y, now, before, a: y + a * (now - before)}),
-    ("whole-numbers-kept", "y is stored in an integer array, which discards the "
-     "fraction of each output", "truncation to integers at each step",
+    ("whole-numbers-kept", "your code stores y in an integer array, which discards the "
+                           "fraction of each output",
      {"step": lambda y, now, before, a: np.trunc(np.trunc(y) + a * (now - np.trunc(y))),
       "first": lambda x, a: np.trunc(x[0])}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(filtered, **other))
+    row.wrong(slug, says)(partial(filtered, **other))
 
 
 @row.wrongs
 def _(x, dt, cutoff):
-    """backwards: the filter runs from the last sample to the first, so it uses samples
+    """backwards: your filter runs from the last sample to the first, so it uses samples
       that are not known yet
-    there-and-back: the filter runs forwards and then backwards, as filtfilt does; the
-      second pass uses samples that are not known yet
-    what-is-fast: the output is x - y, which is a high-pass filter. Return y => x - y
-    not-filtered: the output is x itself, without a filter => x
-    last-left-out: the last output is 0: does your loop end one sample too early? => 0
-      as the last output
-    last-left-out 2: the last output is the last sample: does your loop end one sample
-      too early? => the last sample as the last output
+    there-and-back: your filter runs forwards and then backwards, as filtfilt does, but
+      the second pass uses samples that are not known yet
+    what-is-fast: your output is x - y, which is a high-pass filter. Return y
+    not-filtered: your output is x itself, so your code does not filter it
+    last-left-out: your last output is 0. Does your loop end one sample too early?
+    last-left-out 2: your last output is the last sample. Does your loop end one sample
+      too early?
     """
     right = low_pass(x, dt, cutoff)
     return {

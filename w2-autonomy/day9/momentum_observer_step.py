@@ -37,22 +37,21 @@ def _(rng):
 
 @row.wrongs
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
-    """gravity-sign: `gravity` has the wrong sign. It is the torque that holds the arm,
-      and the weight acts in the opposite direction => +gravity
-    residual-without-dt: the old residual is added to the integral without dt; a torque
-      times dt is a momentum => the old residual without dt
-    integral-of-before: the residual uses the old integral. Advance the integral first
-      => the old integral
-    integral-not-handed-on: the old integral is returned. Return the new one
-    fed-back-times-gain: the old residual is multiplied by the gain in the integral; the
-      residual is already a torque => gain times the old residual
-    low-passed-again: the residual is gain (momentum - integral), filtered by a low pass
-      again. Return this value itself, because the integral already filters it => the
-      residual plus gain (momentum - integral) dt
-    residual-kept: the old residual is added to the new one => the sum of both
-    residual-taken-off: the old residual is subtracted from the new one => their
-      difference
-    new-residual-fed-back: the integral uses a residual of the new momentum. Use the
+    """gravity-sign: your `gravity` has the wrong sign. It is the torque that holds the
+      arm, and the weight acts in the opposite direction
+    residual-without-dt: your code adds the old residual to the integral without dt, but
+      a torque times dt is a momentum
+    integral-of-before: your residual uses the old integral. Advance the integral first
+    integral-not-handed-on: your code returns the old integral. Return the new one
+    fed-back-times-gain: your code multiplies the old residual by the gain in the
+      integral, but the residual is already a torque
+    low-passed-again: your residual is gain (momentum - integral), filtered by a second
+      low pass. Return this value itself, because the integral already filters it
+    residual-kept: your code adds the old residual to the new one. Return the new
+      residual alone => both
+    residual-taken-off: your code subtracts the old residual from the new one. Return
+      the new residual alone
+    new-residual-fed-back: your integral uses a residual of the new momentum. Use the
       residual of the previous sample
     """
     known = tau + energy_grad - gravity - damping * qd
@@ -77,7 +76,9 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
     }
 
 
-@row.wrong("answers-swapped", "the two results are swapped: return the residual first")
+@row.wrong(
+    "answers-swapped", "your code swaps the two results. Return the residual first"
+)
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
     step = momentum_observer_step(
         residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt

@@ -25,46 +25,40 @@ def interval(
     return front(n, m) * (middle(own) + np.array([-z, z]) * np.sqrt(own)) ** 3
 
 
-for slug, says, redone, other in (
-    ("multiplied-for-divided", "c is multiplied by n m: 2 / 9 * n * m divides by 9 "
-     "only. Write 2 / (9 * n * m)", "c = 2 / 9 * n * m",
+for slug, says, other in (
+    ("multiplied-for-divided", "your code multiplies c by n m, because 2 / 9 * n * m "
+                               "divides by 9 only. Write 2 / (9 * n * m)",
      {"c": lambda n, m: 2 / 9 * n * m}),
-    ("added-for-multiplied", "c contains n + m; the sum of n NIS values has n m "
-     "degrees of freedom", "c = 2 / (9 (n + m))",
+    ("added-for-multiplied", "your c contains n + m, but the sum of n NIS values has n "
+                             "m degrees of freedom",
      {"c": lambda n, m: 2 / (9 * (n + m))}),
-    ("whole-division", "c is 0, because // discards the fraction of 2 / (9 n m)",
-     "c = 0", {"c": lambda n, m: 2 // (9 * n * m)}),
-    ("shift-forgotten", "your function uses the mean 1 for the cube root; the mean is "
-     "1 - c",
-     "the mean 1", {"middle": lambda c: 1.0}),
-    ("shift-sign", "your function uses the mean 1 + c for the cube root; the mean is 1 "
-     "- c",
-     "the mean 1 + c", {"middle": lambda c: 1 + c}),
+    ("whole-division", "your c is 0, because // discards the fraction of 2 / (9 n m)",
+     {"c": lambda n, m: 2 // (9 * n * m)}),
+    ("shift-forgotten", "your function uses the mean 1 for the cube root, but the mean "
+                        "is 1 - c", {"middle": lambda c: 1.0}),
+    ("shift-sign", "your function uses the mean 1 + c for the cube root, but the mean "
+                   "is 1 - c", {"middle": lambda c: 1 + c}),
     ("ninety", "your function uses 1.645 standard deviations, which contain 90 % of a "
-     "Gaussian. Use 1.96 for 95 %",
-     "1.645 instead of 1.96", {"z": 1.645}),
+     "Gaussian. Use 1.96 for 95 %", {"z": 1.645}),
     ("two-sigma", "your function uses 2 standard deviations, which contain 95.4 % of a "
-     "Gaussian. Use 1.96 for 95 %",
-     "2 instead of 1.96", {"z": 2.0}),
+     "Gaussian. Use 1.96 for 95 %", {"z": 2.0}),
     ("ninety-nine", "your function uses 2.576 standard deviations, which contain 99 % "
-     "of a Gaussian. Use 1.96 for 95 %", "2.576 instead of 1.96", {"z": 2.576}),
-    ("more-digits", "your function uses 1.959964; the task asks for 1.96",
-     "1.959964 instead of 1.96", {"z": 1.959964}),
-    ("m-cubed", "m is cubed. Multiply by m after the cube", "m^3 instead of m",
+     "of a Gaussian. Use 1.96 for 95 %", {"z": 2.576}),
+    ("more-digits", "your function uses 1.959964, but the task asks for 1.96",
+     {"z": 1.959964}),
+    ("m-cubed", "your code also cubes m. Multiply by m after the cube",
      {"front": lambda n, m: m**3}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(interval, **other))
+    row.wrong(slug, says)(partial(interval, **other))
 
 
 @row.wrongs
 def _(n, m):
     """normal: your interval m +- 1.96 sqrt(2 m / n) treats the mean NIS as Gaussian.
-      Its distribution is skewed; only its cube root is nearly Gaussian => m +- 1.96
-      sqrt(2 m / n)
+      Its distribution is skewed, and only its cube root is nearly Gaussian
     one-over-n: your interval m +- 1.96 / sqrt(n) assumes a standard deviation of 1 for
-      each NIS; the standard deviation is sqrt(2 m) => m +- 1.96 / sqrt(n)
-    cube-inside: 1 - c and 1.96 sigma are cubed separately. Cube their sum => m ((1 -
-      c)^3 -+ (1.96 sigma)^3)
+      each NIS, but the standard deviation is sqrt(2 m)
+    cube-inside: your code cubes 1 - c and 1.96 sigma separately. Cube their sum
     """
     c = 2 / (9 * n * m)
     half = 1.96 * np.sqrt(2 * m / n)

@@ -35,39 +35,37 @@ def counted(
     return told(whole(q / own), own)
 
 
-for slug, says, redone, other in (
-    ("floor", "the counts are rounded down; an encoder reports the nearest count",
-     "np.floor", {"whole": np.floor}),
-    ("towards-zero", "the counts are rounded towards 0, as int() does; an encoder "
-     "reports the nearest count", "np.trunc", {"whole": np.trunc}),
-    ("middle-of-a-count", "the counts are rounded down and half a count is added; an "
-     "encoder reports the nearest whole count", "np.floor plus one half",
+for slug, says, other in (
+    ("floor", "your code rounds the counts down, but an encoder reports the nearest "
+              "count", {"whole": np.floor}),
+    ("towards-zero", "your code rounds the counts towards 0, as int() does, but an "
+                     "encoder reports the nearest count", {"whole": np.trunc}),
+    ("middle-of-a-count", "your code rounds the counts down and adds half a count, but "
+                          "an encoder reports the nearest whole count",
      {"whole": lambda k: np.floor(k) + 0.5}),
-    ("one-count-fewer", "a revolution is divided by counts - 1; the step from the last "
-     "count to the first one is missing", "2 pi / (counts - 1)",
+    ("one-count-fewer", "your code divides a revolution by counts - 1, so it misses "
+                        "the step from the last count to the first one",
      {"step": lambda n: 2 * np.pi / (n - 1)}),
     ("no-pi", "your angle per count is 1 / counts. It should be 2 pi / counts, because "
-     "q is in radians", "1 / counts", {"step": lambda n: 1 / n}),
+     "q is in radians", {"step": lambda n: 1 / n}),
     ("in-degrees", "your angle per count is 360 / counts, in degrees. It should "
-     "be in radians, as q is",
-     "360 / counts", {"step": lambda n: 360 / n}),
+     "be in radians, as q is", {"step": lambda n: 360 / n}),
     ("step-inverted", "your resolution is counts / (2 pi). The angle per "
      "count should be 2 pi / counts, because one revolution has `counts` counts",
-     "counts / (2 pi)", {"step": lambda n: n / (2 * np.pi)}),
-    ("in-counts", "the output is in counts. It should be an angle in radians",
-     "the number of counts", {"told": lambda k, step: k}),
-    ("two-pi-alone", "the number of counts is divided by 2 pi. Multiply it by the "
-     "angle of one count", "the number of counts over 2 pi",
+     {"step": lambda n: n / (2 * np.pi)}),
+    ("in-counts", "your output is in counts. It should be an angle in radians",
+     {"told": lambda k, step: k}),
+    ("two-pi-alone", "your code divides the number of counts by 2 pi. Multiply it by "
+                     "the angle of one count",
      {"told": lambda k, step: k / (2 * np.pi)}),
 ):  # fmt: skip
-    row.wrong(slug, says, redone)(partial(counted, **other))
+    row.wrong(slug, says)(partial(counted, **other))
 
 
 @row.wrong
 def the_error(q, counts):
-    """the output is the rounding error. It should be the angle that the encoder
-    reports => q minus the reported angle
-    """
+    """your output is the rounding error. It should be the angle that the encoder
+    reports"""
     return q - counted(q, counts)
 
 
@@ -75,7 +73,7 @@ row.of_argument(
     "q",
     Change(
         "wrapped",
-        "q is wrapped to the range from 0 to 2 pi. A negative angle should stay "
+        "your code wraps q to the range from 0 to 2 pi. A negative angle should stay "
         "negative",
         lambda q: np.mod(q, 2 * np.pi),
     ),

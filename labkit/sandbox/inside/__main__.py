@@ -30,10 +30,11 @@ def main() -> None:
 
     if fences:
         limits.die_with_parent()
-        limits.stop_being_root()  # before NumPy: a process with threads may not
+        # A process with threads may not, and NumPy starts some.
+        limits.stop_being_root()
     import entropy
 
-    entropy.settle()  # before NumPy, which asks it for its own seeds
+    entropy.settle()  # NumPy takes its own seeds from here
     import answers
     import audit
     import fake_world

@@ -98,6 +98,8 @@ class Answers:
             return {"missing": True}
         args = [self._argument(packed) for packed in call["args"]]
         value = function(*args)
+        if _complex(value) and not any(map(_complex, args)):
+            raise wire.UnsendableError("an array of dtype complex128; expected float64")
         reply = {"value": wire.pack_value(value, self.most)}
         names = _names(function, len(args))
         trio = zip(call["args"], args, names, strict=True)
@@ -192,6 +194,13 @@ def _arrays_of(value: Any) -> list[np.ndarray]:
     return [item for item in parts if isinstance(item, np.ndarray)]
 
 
+def _complex(value: Any) -> bool:
+    """Return whether a value is, or has, an array of complex numbers."""
+    numbers = isinstance(value, np.generic | complex)
+    some = [np.asarray(value)] if numbers else _arrays_of(value)
+    return any(one.dtype.kind == "c" for one in some)
+
+
 def _owner(memory: Any) -> int:
     """Return the identity of what an array's numbers belong to."""
     while getattr(memory, "base", None) is not None:
@@ -212,7 +221,7 @@ def _overlap(some: list[np.ndarray], others: list[np.ndarray]) -> bool:
 
 
 class _Kept(io.StringIO):
-    """What a task prints, up to a point."""
+    """The output of a task, up to a limit."""
 
     left = MOST_OUTPUT
 

@@ -1,4 +1,4 @@
-"""What Python's own sources of chance give is the same in every process.
+"""Python's own sources of random numbers give the same in every process.
 
 A file that draws a number once and keeps it where loading it anew does not clear it
 would be right in one grading and wrong in the next.

@@ -1,4 +1,4 @@
-"""What student code may import besides Python's own modules and NumPy.
+"""The modules that student code may import besides Python's own and NumPy.
 
 All of it comes as text with the request: the student's other files, and the kit's
 library of the days before. No file of theirs is to be seen from here.

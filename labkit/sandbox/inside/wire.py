@@ -1,4 +1,4 @@
-"""How values travel between the checker and the sandbox: plain JSON, never pickle.
+"""The encoding of values between the checker and the sandbox: JSON, never pickle.
 
 Reading an array back runs no code, whatever the sender wrote: only a few number types,
 a shape and as many bytes as those two call for. `pack_value` has the one list of what a
@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-# What a student's function may return. Wider than float64, since an array of integers
-# or of 32-bit floats is a mistake (or none) that the judge has words for.
-DTYPES = {"f2", "f4", "f8", "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "b1"}
+# A student's function may return these types. The list is wider than float64, since the
+# judge has words for an array of integers or of 32-bit floats.
+DTYPES = {"f2", "f4", "f8", "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "b1", "c16"}
 LARGEST, PARTS = 3_000_000, 100  # numbers in a question, results in an answer
-DEEP = 2  # how deep tuples of unlike things may stand in each other
+DEEP = 2  # the depth to which tuples of unlike things may be nested
 WHOLE = 2**63  # a number outside of 64 bits is refused
 LONGEST = 1_000  # characters of a text
 
@@ -77,7 +77,8 @@ def pack_value(value: Any, most: int = LARGEST, deep: int = DEEP) -> Any:
         return {"number": value}
     if isinstance(value, np.ndarray):
         return {"array": pack_array(value, most)}
-    if isinstance(value, np.generic) and value.dtype.str[1:] in DTYPES:
+    plain = isinstance(value, np.generic) and value.dtype.kind != "c"
+    if plain and value.dtype.str[1:] in DTYPES:
         return {"number": value.item(), "dtype": value.dtype.str[1:]}
     if isinstance(value, str):
         return {"text": str(value[:LONGEST])}

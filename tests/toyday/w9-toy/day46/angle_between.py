@@ -18,5 +18,5 @@ row.inputs(pairs)
 
 @row.wrong
 def in_degrees(a, b):
-    """the angle is in degrees; here it is in radians => the angle in degrees"""
+    """the angle is in degrees; here it is in radians"""
     return np.rad2deg(angle(a, b))

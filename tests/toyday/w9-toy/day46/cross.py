@@ -12,5 +12,5 @@ row.inputs(pairs)
 
 @row.wrong
 def b_cross_a(a, b):
-    """the two factors are swapped: this is b x a => b x a"""
+    """the two factors are swapped: this is b x a"""
     return np.cross(b, a)

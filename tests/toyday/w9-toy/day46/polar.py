@@ -18,6 +18,5 @@ def _(rng):
 
 @row.wrong
 def arctan_of_the_ratio(x, y):
-    """the angle is arctan(y / x), which knows two quadrants only => the answer with
-    arctan(y / x)"""
+    """the angle is arctan(y / x), which knows two quadrants only"""
     return np.hypot(x, y), np.arctan(y / x)

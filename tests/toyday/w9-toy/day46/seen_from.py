@@ -19,5 +19,5 @@ def _(rng):
 
 @row.wrong
 def not_undone(T_world_hand, p_world):
-    """T is used as it is; it maps the hand to the world, and you want back => T p"""
+    """T is used as it is; it maps the hand to the world, and you want back"""
     return (T_world_hand @ np.append(p_world, 1.0))[:3]

@@ -20,7 +20,7 @@ row.inputs(vectors)
 
 @row.wrong
 def second_half_empty(omega):
-    """the lower right block is empty; v turns too => the matrix with that block 0"""
+    """the lower right block is empty; v turns too"""
     out = both(omega)
     out[3:, 3:] = 0.0
     return out

@@ -18,7 +18,8 @@ MB = 1_000_000
 SCRIPT = 100_000
 HELPERS = 50  # modules beside the script
 LISTED = 10_000  # entries of work/ that are looked at
-NO_NAME = (errno.ENAMETOOLONG, errno.EINVAL, errno.ELOOP)  # of a file, on this system
+# No file of this system can have such a name.
+NO_NAME = (errno.ENAMETOOLONG, errno.EINVAL, errno.ELOOP)
 
 BEHIND_A_LINK = "is behind a link; hand in the file itself"
 _FROM_FOLDERS = os.open in os.supports_dir_fd
@@ -67,7 +68,7 @@ def size_of(root: Path, name: str) -> int | None:
 
 
 def _size(opened: int) -> int:
-    status = os.fstat(opened)  # of what was opened, whatever has its name now
+    status = os.fstat(opened)  # the file may have been replaced after it was opened
     if not stat.S_ISREG(status.st_mode):
         raise UnreadError("is no file")
     return status.st_size

@@ -1,4 +1,4 @@
-"""The worksheet's table of predictions: what was predicted, and what came out.
+"""The worksheet's table of predictions, with the predicted and measured values.
 
 A row is `| number | predicted | measured | why apart |`. The first two cells and the
 last are the student's; `make run` writes the third, where nobody else has.
@@ -9,7 +9,7 @@ import re
 from collections.abc import Mapping
 
 _OPEN = re.compile(r"\*\([^*]*\)\*|[._\s…-]*")  # the template's own words, or none
-_HEAD = re.compile(r"number|what is wrong|[-: ]*")  # of the table; below it
+_HEAD = re.compile(r"number|what is wrong|[-: ]*")  # the head of the table
 _OURS = re.compile(r"(-?[\d.]+(?:e[-+]\d+)?) \(run of \d\d:\d\d\)")
 
 

@@ -1,13 +1,13 @@
-"""A worksheet's predictions as numbers, each with what was measured."""
+"""A worksheet's predictions as numbers, each with the measured value."""
 
 import math
 import re
 from typing import NamedTuple
 
 from labkit.handin.worksheet import split_sections
-from labkit.lesson.predicted import predictions
+from labkit.lesson.predictions import predictions
 
-_RUN = re.compile(r" \(run of \d\d:\d\d\)$")  # as a run ends the cell that it writes
+_RUN = re.compile(r" \(run of \d\d:\d\d\)$")  # the end of a cell that a run wrote
 LONGEST = 120  # characters of a cell in which a number is searched
 _NUMBER = re.compile(
     r"(?<![\w.^/-])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\d.]*\d)"
@@ -21,9 +21,9 @@ _SEVERAL = re.compile(r"\d\s*(?:[-–—/*^]|to|and|or|\.\.+)\s*[-+.]?\d|\bpi\b|
 class Prediction(NamedTuple):
     """A row of the table that has a prediction."""
 
-    number: str  # what is predicted, with its unit
-    predicted: str  # as the student wrote it
-    measured: str  # as a run or the student wrote it; "" where the cell is open
+    number: str  # the predicted quantity, with its unit
+    predicted: str  # the student's own text
+    measured: str  # the text of a run or of the student; "" if the cell is open
 
 
 def compared(worksheet: str) -> list[Prediction]:

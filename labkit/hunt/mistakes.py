@@ -1,10 +1,10 @@
-"""Which mistakes can be hunted, and which one a seed draws."""
+"""The pool of mistakes that can be hunted, and the sample of a seed."""
 
 import hashlib
 from collections.abc import Callable, Collection, Sequence
 from typing import Any, NamedTuple
 
-from labkit.hunt.written import showing
+from labkit.hunt.capstone_list import visible_mistakes
 from labkit.judge.row import rows_of
 from labkit.lesson.day import Day, days_of
 from robo47.errors import Robo47Error
@@ -16,8 +16,8 @@ LEVELS = {
 }
 
 
-class Quarry(NamedTuple):
-    """A mistake in a function."""
+class HiddenMistake(NamedTuple):
+    """A mistake in a function, which a student is to find."""
 
     day: int  # the day that teaches the function
     function: str
@@ -26,23 +26,24 @@ class Quarry(NamedTuple):
     code: Callable[..., Any]  # the function with the mistake in it
 
 
-def quarries(day: Day) -> list[Quarry]:
-    """Return the mistakes of a day's functions that show when its lab is run."""
+def mistakes_of(day: Day) -> list[HiddenMistake]:
+    """Return the mistakes of a day's functions that a run of its lab shows."""
     return [
-        Quarry(day.number, function, way.slug, way.says, way.code)
+        HiddenMistake(day.number, function, way.slug, way.says, way.code)
         for function, row in rows_of(day).items()
         for way in row.ways
         if way.status == "wrong" and not way.hidden and not way.reached
     ]
 
 
-def pool_of(day: Day, level: int) -> list[Quarry]:
-    """Return what can be drawn of a day at a level.
+def pool_of(day: Day, level: int) -> list[HiddenMistake]:
+    """Return the pool of a day at a level.
 
     Raises:
-        Robo47Error: nothing: this kit has no such catalogue, or no capstone shows any.
+        Robo47Error: the pool is empty, because this kit has no such catalogue or no
+            capstone shows any mistake.
     """
-    found = quarries(day) if level != 2 else of_the_capstone(day)
+    found = mistakes_of(day) if level != 2 else visible_in_capstone(day)
     if not found:
         what = f"mistakes of day {day.number}"
         what += " that the capstone shows" if level == 2 else ""
@@ -50,20 +51,22 @@ def pool_of(day: Day, level: int) -> list[Quarry]:
     return found
 
 
-def drawn(day: Day, level: int, seed: int, known: Collection[str] = ()) -> list[Quarry]:
-    """Return what is to be found, by a seed.
+def sample(
+    day: Day, level: int, seed: int, known: Collection[str] = ()
+) -> list[HiddenMistake]:
+    """Return the mistakes of a hunt, sampled from the pool by a seed.
 
-    Each function and then each of its mistakes gets a number, and the lowest is drawn:
-    a mistake that a newer kit adds changes few hunts of older seeds.
+    Each function, and then each of its mistakes, gets a hash, and the lowest is taken.
+    A mistake that a newer kit adds therefore changes few hunts of older seeds.
 
     Args:
         day: whose functions; at level 2 with those of its week before it.
         level: one of `LEVELS`.
         seed: the same seed gives the same mistake, with the same kit.
-        known: names of mistakes that are not drawn: somebody's own.
+        known: names of mistakes that the student has met, which are left out.
 
     Raises:
-        Robo47Error: nothing is left to be drawn.
+        Robo47Error: the student has met all of them.
     """
     pool = [one for one in pool_of(day, level) if one.slug not in known]
     if not pool:
@@ -83,17 +86,19 @@ def drawn(day: Day, level: int, seed: int, known: Collection[str] = ()) -> list[
     ]
 
 
-def mark_of(one: Quarry, level: int, seed: int) -> str:
-    """Return what tells a mistake again in another kit, and nobody reads it from."""
+def mark_of(one: HiddenMistake, level: int, seed: int) -> str:
+    """Return a hash that identifies a mistake in another kit and does not reveal it."""
     text = f"{level} {seed} {one.day} {one.function} {one.slug}"
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-def marked(day: Day, level: int, seed: int, marks: Sequence[str]) -> list[Quarry]:
-    """Return the mistakes that marks of `mark_of` mean.
+def marked(
+    day: Day, level: int, seed: int, marks: Sequence[str]
+) -> list[HiddenMistake]:
+    """Return the mistakes with these marks of `mark_of`.
 
     Raises:
-        Robo47Error: this kit has not all of them.
+        Robo47Error: this kit lacks one of them.
     """
     pool = {mark_of(one, level, seed): one for one in reversed(pool_of(day, level))}
     if any(mark not in pool for mark in marks):
@@ -104,17 +109,17 @@ def marked(day: Day, level: int, seed: int, marks: Sequence[str]) -> list[Quarry
     return [pool[mark] for mark in marks]
 
 
-def of_the_capstone(day: Day) -> list[Quarry]:
+def visible_in_capstone(day: Day) -> list[HiddenMistake]:
     """Return mistakes of days up to this one that the capstone of its week shows.
 
     Raises:
         Robo47Error: that week has no capstone.
     """
-    shown = showing(day.week)
-    return [one for one in asked_by(day) if (one.function, one.slug) in shown]
+    shown = visible_mistakes(day.week)
+    return [one for one in called_by_capstone(day) if (one.function, one.slug) in shown]
 
 
-def asked_by(day: Day) -> list[Quarry]:
+def called_by_capstone(day: Day) -> list[HiddenMistake]:
     """Return mistakes of days up to this one in functions that the capstone calls.
 
     Raises:
@@ -127,5 +132,5 @@ def asked_by(day: Day) -> list[Quarry]:
     for other in days_of(day.week):
         if other.number <= day.number:
             asked = uses.get(other.number, ())
-            found += [one for one in quarries(other) if one.function in asked]
+            found += [one for one in mistakes_of(other) if one.function in asked]
     return found

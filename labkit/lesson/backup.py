@@ -1,4 +1,4 @@
-"""A student's file written anew, with what it had kept beside it."""
+"""Replaces a student's file and keeps a copy of the former one beside it."""
 
 from itertools import count
 from pathlib import Path

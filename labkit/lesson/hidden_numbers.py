@@ -16,7 +16,7 @@ from collections.abc import Collection, Iterator, Sequence
 from typing import Any, NamedTuple
 
 WORD = "(hidden)"
-CLOSE = 0.15  # in the line of a hidden number, a number as close as this would tell it
+CLOSE = 0.15  # a number this close in the same line would reveal the hidden one
 SURE = 3  # significant digits by which a number is recognised anywhere in the output
 _NUMBER = re.compile(
     r"(?<![\w.,])[-+]?(\d+(?:,\d{3})*(?:\.(\d+))?)(?:e([-+]?\d+))?(?![.,]?\w)"
@@ -25,27 +25,27 @@ _HEADING = re.compile(r"(?m)^\d+\. ")
 _OF = re.compile(r" of (\d+)\b")
 
 
-class Hidden(NamedTuple):
+class HiddenNumber(NamedTuple):
     """A number that is still to be predicted."""
 
     value: float
-    at: int  # where in the output it was reported
+    at: int  # the position in the output
 
 
-class Printed(NamedTuple):
+class PrintedNumber(NamedTuple):
     """A number in a line of the output."""
 
     start: int
     end: int
     value: float
     half: float  # half a unit of its last digit
-    digits: int  # that are significant
-    whole: bool  # without decimals
+    digits: int  # the number of significant digits
+    whole: bool  # the number has no decimals
     part: float  # k / n, where the line has "k of n", else NaN
 
     @property
     def bare(self) -> bool:
-        """Whether it is one or two digits, which may count anything."""
+        """The number has one or two digits and may be any count."""
         return self.whole and self.digits < SURE
 
     def is_of(self, value: float) -> bool:
@@ -66,7 +66,7 @@ class Printed(NamedTuple):
 
 
 class Output(io.StringIO):
-    """What a lab prints, held until `release`."""
+    """The output of a lab, held until `release`."""
 
     def __init__(self, asked: Collection[str]) -> None:
         """Hold what is printed from now on.
@@ -77,7 +77,7 @@ class Output(io.StringIO):
         super().__init__()
         self.asked = frozenset(asked)
         self._missing = set(asked)
-        self._hidden: list[Hidden] = []
+        self._hidden: list[HiddenNumber] = []
         self._kept: set[str] = set()  # lines that say what is hidden
         self._before = sys.stdout, sys.breakpointhook
         self._holds = bool(asked)
@@ -91,7 +91,7 @@ class Output(io.StringIO):
     def hide(self, number: str, value: float, says: str) -> None:
         """Hide a number, before and after this line, and print a line in its place."""
         self._missing.discard(number)
-        self._hidden.append(Hidden(float(f"{abs(value):.12g}"), self.tell()))
+        self._hidden.append(HiddenNumber(float(f"{abs(value):.12g}"), self.tell()))
         self._kept.update(says.splitlines())
         print(says)
 
@@ -119,7 +119,7 @@ class Output(io.StringIO):
 
 def without(
     text: str,
-    hidden: Sequence[Hidden],
+    hidden: Sequence[HiddenNumber],
     kept: Collection[str] = (),
     *,
     every: bool = False,
@@ -160,7 +160,7 @@ def _hide(line: str, known: set[float], short: list[float], every: bool) -> str:
     """Return a line without the hidden numbers, and without those that tell one."""
     numbers = list(_numbers(line))
 
-    def is_of(one: Printed, value: float) -> bool:
+    def is_of(one: PrintedNumber, value: float) -> bool:
         return one.is_of(value) and not (one.bare and value in known)
 
     found = {
@@ -175,7 +175,7 @@ def _hide(line: str, known: set[float], short: list[float], every: bool) -> str:
     return line
 
 
-def _replaced(line: str, one: Printed) -> str:
+def _replaced(line: str, one: PrintedNumber) -> str:
     """Return a line with the word in the place of a number; columns stay in line."""
     text = line[: one.start].rstrip(" ")
     gap = one.start - len(text)
@@ -184,7 +184,7 @@ def _replaced(line: str, one: Printed) -> str:
     return text + (word if gap > 1 else " " * gap + WORD) + line[one.end :]
 
 
-def _numbers(line: str) -> Iterator[Printed]:
+def _numbers(line: str) -> Iterator[PrintedNumber]:
     """Return the numbers of a line; not the n of "k of n", nor the 0 of "q = 0"."""
     for found in _NUMBER.finditer(line):
         mantissa, decimals, exponent = found[1].replace(",", ""), found[2], found[3]
@@ -196,4 +196,4 @@ def _numbers(line: str) -> Iterator[Printed]:
         whole = _OF.match(line, found.end())
         part = value / int(whole[1]) if whole and int(whole[1]) else math.nan
         half = 0.5 * power * 10.0 ** -len(decimals or "")
-        yield Printed(*found.span(), value, half, digits, not decimals, part)
+        yield PrintedNumber(*found.span(), value, half, digits, not decimals, part)

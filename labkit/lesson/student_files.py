@@ -1,4 +1,4 @@
-"""Which files of a clone the student writes: one list, from the manifests.
+"""The files of a clone that the student writes: one list, from the manifests.
 
 Hand-in, update, fresh, edition, report and capstone ask this module; no other one has
 a pattern of these names.
@@ -11,8 +11,9 @@ from labkit.lesson.day import LOG, all_days
 from labkit.lesson.week import NOTEBOOKS, WORK, Week, weeks
 from robo47.paths import ROOT
 
-MADE = (f"{WORK}/*", f"{NOTEBOOKS}/*")  # in a week: the kit has no file there
-OWN_LABS = f"w*/{WORK}/**"  # as git writes a pattern of paths
+# The kit has no files in these folders of a week.
+MADE = (f"{WORK}/*", f"{NOTEBOOKS}/*")
+OWN_LABS = f"w*/{WORK}/**"  # a pattern of paths in git's form
 
 
 def is_students(name: str) -> bool:

@@ -1,7 +1,7 @@
-"""A day under another number, or in another week: its files, and its number in them.
+"""Gives a day another number, or another week: its files, and its number in them.
 
-Files that git knows are moved by git, so their history stays. What is not the day's own
-stays as it is and is told: other documents that name it, a student's work, the log.
+Git moves the files that it knows, so their history remains. Other documents that name
+the day, a student's work and the log stay as they are, and the result lists them.
 """
 
 import re
@@ -19,14 +19,14 @@ TEXTS = (".py", ".md", ".toml")
 OUTPUTS = re.compile(r"<!-- \w+: .*?<!-- end -->", re.DOTALL)  # made anew
 
 
-class Moved(NamedTuple):
-    """What became of a day."""
+class Renumbering(NamedTuple):
+    """The result of a move."""
 
-    files: list[tuple[Path, Path]]  # from where, to where
+    files: list[tuple[Path, Path]]  # pairs of the old and the new path
     left: list[str]  # places that name it and were not touched: "file, line 3: text"
 
 
-def move(day: Day, number: int, folder: Path, name: str) -> Moved:
+def move(day: Day, number: int, folder: Path, name: str) -> Renumbering:
     """Give a day another number, in a week's folder; its week.toml is not written.
 
     Args:
@@ -39,7 +39,9 @@ def move(day: Day, number: int, folder: Path, name: str) -> Moved:
         Robo47Error: a file of the new number is there already.
     """
     stem = f"day{number}_{name}"
-    pairs = [(path, folder / _renamed(path, day, number, stem)) for path in _own(day)]
+    pairs = [
+        (path, folder / _renamed(path, day, number, stem)) for path in _files_of(day)
+    ]
     for _, to in pairs:
         if to.exists():
             raise Robo47Error(f"{shown(to)} is there already; nothing was moved")
@@ -52,11 +54,11 @@ def move(day: Day, number: int, folder: Path, name: str) -> Moved:
         if new != text:
             to.write_text(new, "utf-8", newline="\n")
     _remember(folder / f"day{number}" / "day.toml", day, stem)
-    left = list(_left(day, number, [to for _, to in pairs]))
-    return Moved(pairs, left)
+    left = list(_remaining_names(day, number, [to for _, to in pairs]))
+    return Renumbering(pairs, left)
 
 
-def _own(day: Day) -> list[Path]:
+def _files_of(day: Day) -> list[Path]:
     """Return the day's own files and folders in its week's folder."""
     n = day.number
     found = [day.own]
@@ -145,7 +147,7 @@ def _remember(manifest: Path, day: Day, stem: str) -> None:
     )
 
 
-def _left(day: Day, number: int, own: list[Path]) -> Iterator[str]:
+def _remaining_names(day: Day, number: int, own: list[Path]) -> Iterator[str]:
     """Yield the places that still name the day, or may: for a person to look at."""
     n = day.number
     ids = "|".join(re.escape(task.id) for task in day.tasks)

@@ -1,7 +1,8 @@
-"""What is written down of a week's capstone: which mistakes it shows.
+"""The list of mistakes that a week's capstone shows: its file `hunts.txt`.
 
-Trying one takes a second or more, and a hunt is to begin at once; so `labkit.hunt.seen`
-tries them all and writes the week's `hunts.txt`, a function and a mistake a line.
+A trial takes a second or more, and a hunt must begin at once. Therefore
+`labkit.hunt.capstone_trials` tries all mistakes and writes the file: each line names a
+function and a mistake.
 """
 
 from collections.abc import Iterable
@@ -18,12 +19,12 @@ HEAD = """\
 
 
 def file_of(week: Week) -> Path:
-    """Return where it stands."""
+    """Return the path of a week's list."""
     return week.folder / "hunts.txt"
 
 
-def showing(week: Week) -> set[tuple[str, str]]:
-    """Return (function, mistake) of all that a week's capstone shows."""
+def visible_mistakes(week: Week) -> set[tuple[str, str]]:
+    """Return (function, mistake) for all mistakes that a week's capstone shows."""
     path = file_of(week)
     lines = path.read_text("utf-8").splitlines() if path.is_file() else []
     pairs = [line.split() for line in lines if line and line[0] != "#"]
@@ -31,7 +32,7 @@ def showing(week: Week) -> set[tuple[str, str]]:
 
 
 def write(week: Week, found: Iterable[tuple[str, str]]) -> None:
-    """Write it anew."""
+    """Replace a week's list."""
     lines = sorted({" ".join(pair) for pair in found})
     text = HEAD.format(day=week.days[-1]) + "\n".join(lines) + "\n"
     store.replace(file_of(week), text.encode())

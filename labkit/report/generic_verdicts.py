@@ -1,4 +1,4 @@
-"""Words for verdicts that say what came out, and not which mistake was made."""
+"""Words for verdicts that describe the answers and do not name a mistake."""
 
 UNNAMED = {
     "both-halves-off": "both halves are off",
@@ -25,5 +25,7 @@ UNNAMED = {
 
 
 def in_words(slug: str) -> str:
-    """Return a verdict's words: these, or the mistake's name without its hyphens."""
+    """Return these words, or a mistake's name without its hyphens."""
+    if slug.startswith("slip-"):  # its sentence says which one
+        return "one slip in the formula"
     return UNNAMED.get(slug, slug.replace("-", " "))

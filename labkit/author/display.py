@@ -1,4 +1,4 @@
-"""What a day shows: its tabs opened with the complete lab, its pictures drawn anew."""
+"""Opens a day's tabs with the complete lab, and compares its pictures with new ones."""
 
 import html
 import json
@@ -23,12 +23,12 @@ from robo47 import panda
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
-APART = 40  # of 255: more than drivers' rounding, or another palette
-SHARE = 0.002  # of the pixels that may be so far apart
-SECONDS = 60.0  # for a tab to have all that it asked for
+APART = 40  # a difference over 40 of 255 is no rounding of a driver, and no palette
+SHARE = 0.002  # the fraction of the pixels that may differ so much
+SECONDS = 60.0  # the time that a tab has to load everything
 LONGEST = 600.0  # seconds for all tabs of a day
 CALM = 6  # looks at a tab in a row at which nothing was under way
-# What a panel says of a tab that stopped, and of functions that are not the library's.
+# The lines of a panel about a tab that stopped, or functions outside the library.
 _BAD = re.compile(
     r'<div class="[^"]*\br47-bad\b[^"]*" data-line="(?:tab|whose)"[^>]*>(.*?)</div>',
     re.DOTALL,
@@ -52,11 +52,11 @@ def pictures(day: Day) -> Iterator[str]:
             there = day.folder / "figures" / new.name
             if not there.is_file():
                 yield f"{shown(there)} is not there: {draw}"
-            elif far := _apart(there, new):
+            elif far := _difference(there, new):
                 yield f"{shown(there)} is not what is drawn now: {far}. {draw}"
 
 
-def _apart(there: Path, new: Path) -> str:
+def _difference(there: Path, new: Path) -> str:
     """Return how far a picture is from the one that is drawn now, "" where near."""
     before, now = (read_png(path.read_bytes()).astype(int) for path in (there, new))
     if before.shape != now.shape:
@@ -77,7 +77,7 @@ def tabs(day: Day) -> Iterator[str]:
     if not find_spec("viser"):
         yield "viser is not installed, so no tab can be opened: make author installs it"
         return
-    words = [sys.executable, "-m", "labkit.author.seen", str(day.number)]
+    words = [sys.executable, "-m", "labkit.author.display", str(day.number)]
     try:
         done = processes.run(words, cwd=ROOT, timeout=LONGEST)
     except subprocess.TimeoutExpired:
@@ -90,7 +90,7 @@ def tabs(day: Day) -> Iterator[str]:
     yield from json.loads(lines[-1])
 
 
-def opened(day: Day) -> list[str]:
+def tab_faults(day: Day) -> list[str]:
     """Return what a person would read of each tab of the day that stops, or differs."""
     from labkit.inspector.app import Inspector
     from labkit.inspector.arm import Arm
@@ -145,5 +145,5 @@ def _bad(page: Any) -> list[str]:
 
 
 if __name__ == "__main__":
-    print(json.dumps(opened(find_day(int(sys.argv[1])))), flush=True)
+    print(json.dumps(tab_faults(find_day(int(sys.argv[1])))), flush=True)
     os._exit(0)  # a tab's thread may still be at work

@@ -1,8 +1,8 @@
-"""Which mistakes a week's capstone shows: what level 2 may draw.
+"""Trials of mistakes in a week's capstone: level 2 samples those that it shows.
 
-Most mistakes of a function move no number of the capstone (its angles never come near
-pi, its torques never to a limit), and some stop it with a TypeError that names nothing
-but Python. Neither can be hunted. What shows is written down (`labkit.hunt.written`):
+Most mistakes of a function change no number of the capstone (its angles never come near
+pi, its torques never to a limit), and some stop it with a TypeError of Python alone.
+Neither can be hunted. `labkit.hunt.capstone_list` holds the others:
 
     python scripts/hunt_bug.py 7 --write-seen       for authors; it takes minutes
 """
@@ -14,8 +14,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import FrameType, ModuleType, SimpleNamespace
 from typing import Any, NamedTuple
 
-from labkit.hunt.quarry import Quarry, asked_by
-from labkit.hunt.written import write
+from labkit.hunt.capstone_list import write
+from labkit.hunt.mistakes import HiddenMistake, called_by_capstone
 from labkit.lesson.day import Day, days_of
 from labkit.lesson.lab_module import load_lab
 from robo47.errors import Robo47Error
@@ -24,15 +24,15 @@ SECONDS = 60  # the longest that an attempt may take
 
 
 class Attempt(NamedTuple):
-    """What one sees of a capstone."""
+    """The visible result of a capstone."""
 
     line: str  # its row of numbers, or why it stopped
-    done: bool  # whether it came to an end
+    done: bool  # the attempt came to an end
     words: bool = True  # an exception's text is the kit's, not Python's
 
 
 def attempt(capstone: ModuleType, fns: Any, name: str) -> Attempt:
-    """Do a capstone by some functions; what stops it is told, not raised."""
+    """Do a capstone with some functions; return an error as its line."""
     try:
         return Attempt(str(capstone.row(name, capstone.attempt(fns))), True)
     except Exception as error:
@@ -41,21 +41,21 @@ def attempt(capstone: ModuleType, fns: Any, name: str) -> Attempt:
         return Attempt(f"{name}: it stops. {kind}{error}", False, ours)
 
 
-def shows(one: Quarry, found: Attempt, right: Attempt) -> bool:
-    """Return whether a mistake can be hunted by what the capstone shows of it.
+def shows(one: HiddenMistake, found: Attempt, right: Attempt) -> bool:
+    """Return whether the capstone shows a mistake so that it can be hunted.
 
-    Its numbers are others than the right ones, or it stops in words that do not name
-    the function.
+    The numbers differ from the right ones, or the message of an error does not name the
+    function.
     """
     if found.done:
         return found.line != right.line
     return found.words and not re.search(rf"\b{one.function}\b", found.line)
 
 
-def seen(
-    capstone: ModuleType, labs: Mapping[int, ModuleType], pool: Iterable[Quarry]
-) -> Iterator[tuple[Quarry, Attempt, bool]]:
-    """Try each mistake of a pool: it, what one sees, whether it can be hunted.
+def trials(
+    capstone: ModuleType, labs: Mapping[int, ModuleType], pool: Iterable[HiddenMistake]
+) -> Iterator[tuple[HiddenMistake, Attempt, bool]]:
+    """Yield each mistake of a pool, its attempt, and whether it can be hunted.
 
     Args:
         capstone: of the week.
@@ -74,15 +74,15 @@ def seen(
         lab = vars(labs[one.day])
         kept = lab[one.function]
         lab[one.function] = one.code
-        with _in_time():
+        with _time_limit():
             found = attempt(capstone, functions(), "")
         lab[one.function] = kept
         yield one, found, shows(one, found, right)
 
 
 @contextlib.contextmanager
-def _in_time() -> Iterator[None]:
-    """Stop what goes on for longer than SECONDS."""
+def _time_limit() -> Iterator[None]:
+    """Stop an attempt that takes longer than SECONDS."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         raise TimeoutError(f"it takes over {SECONDS} s")
@@ -97,20 +97,20 @@ def _in_time() -> Iterator[None]:
 
 
 def write_all(day: Day, say: Callable[[str], None]) -> str:
-    """Try all mistakes that the capstone of a day's week may show; write down which do.
+    """Try all mistakes that the capstone of a day's week may show, and write the list.
 
     Args:
         day: the last one of its week.
         say: is told each, as it is tried.
 
     Returns:
-        How many show.
+        A sentence's end with the number of those that show.
     """
     from labkit.check.own_functions import capstone_of
 
     labs = {other.number: load_lab(other.source) for other in days_of(day.week)}
     found: dict[tuple[str, str], bool] = {}
-    for one, what, can in seen(capstone_of(day.week), labs, asked_by(day)):
+    for one, what, can in trials(capstone_of(day.week), labs, called_by_capstone(day)):
         say(f"{'shows' if can else '  -  '}  {one.function} {one.slug}: {what.line}")
         key = (one.function, one.slug)
         found[key] = can and found.get(key, True)  # made in two ways: both must show

@@ -1,0 +1,107 @@
+"""15.7 `adam_step(theta, grad, m, v, k, rate)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+row = Row(
+    (
+        Vector((None,), called="theta", scale=0.01),
+        Vector((None,), called="m"),
+        Vector((None,), called="v"),
+    ),
+    # A gradient of 0 without a past: any number divided by itself.
+    at_edge=lambda theta, grad, m, v, k, rate: bool(
+        np.all((np.abs(grad) > 1e-3) | (v > 1e-6))
+    ),
+)
+
+
+def state(rng, n, k, size=1.0):
+    """Return theta, a gradient, both averages after k - 1 steps, and k."""
+    before = size * (k > 1)  # the averages are 0 before the first step
+    return (
+        rng.numbers(-1, 1, n),
+        size * rng.numbers(-3, 3, n),
+        before * rng.numbers(-0.5, 0.5, n),
+        before**2 * rng.numbers(0.001, 0.02, n),
+        k,
+    )
+
+
+@row.inputs
+def _(rng):
+    one = np.ones(1)
+    yield one, 3 * one, 0 * one, 0 * one, 1, 0.01
+    for n, k in ((2, 1), (3, 2), (2, 3), (4, 7), (3, 20)):
+        yield *state(rng, n, k), float(rng.numbers(0.005, 0.05))
+    yield *state(rng, 2, 3, 1e-6), 0.02  # a tiny gradient shows eps
+
+
+row.cases(
+    the_first_step=lambda theta, grad, m, v, k, rate: k == 1,
+    later_steps=lambda theta, grad, m, v, k, rate: k > 1,
+)
+
+
+@row.wrongs
+def _(theta, grad, m, v, k, rate):
+    """no-correction: the averages are not divided by 1 - 0.9^k and 1 - 0.999^k. They
+      start at 0, so without the division they are too small at first
+    corrected-kept: the divided averages are returned. Return m and v without the
+      division: it is for the update only, and the next step would divide again
+    eps-in-the-root: 1e-8 is added inside the square root. Add it to the root
+    betas-swapped: the decay rates 0.9 and 0.999 are swapped
+    old-averages: the update uses m and v as they were before this step. Update both
+      first
+    corrections-swapped: m is divided by 1 - 0.999^k and v by 1 - 0.9^k. Each average
+      has its own decay rate
+    """
+    m1 = 0.9 * m + 0.1 * grad
+    v1 = 0.999 * v + 0.001 * grad**2
+    c1, c2 = 1 - 0.9**k, 1 - 0.999**k
+    mean = m1 / c1
+    square = v1 / c2
+
+    def step(mean, square):
+        return theta - rate * mean / (np.sqrt(square) + 1e-8)
+
+    ms = 0.999 * m + 0.001 * grad
+    vs = 0.9 * v + 0.1 * grad**2
+    right = step(mean, square)
+    return {
+        "no-correction": (step(m1, v1), m1, v1),
+        "corrected-kept": (right, mean, square),
+        "eps-in-the-root": (theta - rate * mean / np.sqrt(square + 1e-8), m1, v1),
+        "betas-swapped": (step(ms / c2, vs / c1), ms, vs),
+        "old-averages": (step(m / c1, v / c2), m1, v1),
+        "corrections-swapped": (step(m1 / c2, v1 / c1), m1, v1),
+    }
+
+
+@row.right  # The corrections in the step size, as in the paper's remark.
+def _(theta, grad, m, v, k, rate):
+    m = m + 0.1 * (grad - m)
+    v = v + 0.001 * (grad * grad - v)
+    root = np.sqrt(1 - 0.999**k)
+    size = rate * root / (1 - 0.9**k)
+    return theta - size * m / (np.sqrt(v) + 1e-8 * root), m, v
+
+
+@row.right  # Entry by entry.
+def _(theta, grad, m, v, k, rate):
+    new = [np.zeros(len(theta)) for _ in range(3)]
+    for i in range(len(theta)):
+        a = 0.9 * m[i] + (1 - 0.9) * grad[i]
+        b = 0.999 * v[i] + (1 - 0.999) * grad[i] ** 2
+        move = (a / (1 - 0.9**k)) / ((b / (1 - 0.999**k)) ** 0.5 + 1e-8)
+        new[0][i], new[1][i], new[2][i] = theta[i] - rate * move, a, b
+    return tuple(new)
+
+
+@row.spans
+def _(rng):
+    theta, grad, m, v, _ = state(rng, 3, 4)
+    yield theta, grad, m, v, 1000, 1e-8
+    for size in (1e-4, 1e3):
+        yield 1e-3 * theta, size * grad, size * m, size**2 * v, 4, 0.003

@@ -1,0 +1,63 @@
+"""15.1 `contact_angle(phi, distance, R)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Scalar
+
+row = Row(Scalar(unit="rad"))
+
+
+@row.inputs
+def _(rng):
+    yield 0.1, 0.065, 0.065
+    yield 0.1, 0.0, 0.065
+    for side in (1, -1, 1, -1, 1, -1):
+        phi = rng.numbers(0.02, 1.4)
+        distance = rng.numbers(0, 0.2)
+        R = rng.numbers(0.03, 0.12)
+        yield float(side * phi), float(distance), float(R)
+    yield 2.6, 0.04, 0.08
+
+
+row.cases(
+    pushes_of_distance_0=lambda phi, distance, R: distance == 0,
+    pushes_over_a_distance=lambda phi, distance, R: distance > 0,
+)
+row.cases(
+    positive_angles=lambda phi, distance, R: phi > 0,
+    negative_angles=lambda phi, distance, R: phi < 0,
+)
+
+
+@row.wrongs
+def _(phi, distance, R):
+    """small-angle: your function uses phi exp(distance / R), which holds for small
+      angles only, where sin(phi) is almost phi. Integrate with sin(phi)
+    one-step: your function adds distance sin(phi) / R once. The rate sin(phi) / R
+      changes along the way, so integrate it
+    """
+    return {
+        "small-angle": phi * np.exp(distance / R),
+        "one-step": phi + distance * np.sin(phi) / R,
+    }
+
+
+@row.right  # With the half-angle in terms of tanh.
+def _(phi, distance, R):
+    if abs(np.sin(phi)) < 1e-300:
+        return phi
+    way = np.log(np.abs(np.tan(phi / 2))) + distance / R
+    return np.sign(phi) * np.arccos(-np.tanh(way))
+
+
+@row.right  # A start, and where the exponential ends.
+def _(phi, distance, R):
+    t = np.exp(distance / R) * np.sin(phi / 2)
+    return 2 * np.arctan2(t, np.cos(phi / 2))
+
+
+row.spans(
+    phi=(0.0, 1e-4, 3.0),
+    distance=(1e-6, 1.0),
+    R=(0.01,),
+)

@@ -1,0 +1,89 @@
+"""15.3 `fit_scaler(x)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row
+
+row = Row(Matrix((2, None), rows=("the means", "the standard deviations")))
+
+
+@row.inputs
+def _(rng):
+    yield (np.array([[1.0, 4], [3, 4]]),)
+    yield (np.array([[2.0, -1, 5]]),)  # one row
+    yield (np.array([[0.0, 0], [0, 1], [0, 5]]),)
+    for n, d, middle in ((4, 2, 0.0), (6, 3, 2.0), (5, 1, -3.0), (9, 4, 1.0)):
+        yield (middle + rng.numbers(0.2, 2.5, d) * rng.numbers(-1, 1, n, d),)
+    x = rng.numbers(-1, 1, 5, 3)
+    x[:, 1] = 2.0
+    yield (x,)
+
+
+row.cases(
+    a_constant_column=lambda x: bool((x == x[0]).all(axis=0).any()),
+    columns_that_vary=lambda x: not (x == x[0]).all(axis=0).any(),
+)
+
+
+@row.wrongs
+def _(x):
+    """n-minus-one: the standard deviation divides by n - 1. Divide by n, so that
+      normalised columns have a standard deviation of exactly 1
+    about-0: the second row is the root mean square, the standard deviation about 0.
+      Subtract the mean first
+    one-for-all: one mean and one standard deviation are used for all columns. Each
+      column has its own unit and its own scale
+    spread-for-all: one standard deviation is used for all columns. Each column has its
+      own unit and its own scale
+    min-max: the smallest entry and the range are returned. Return the mean and the
+      standard deviation, which depend less on a single row
+    constant-0: a constant column has a standard deviation of 0, so `normalise` would
+      divide by 0. Return 1 for such a column
+    """
+    mean = x.mean(axis=0)
+    std = x.std(axis=0)
+    one = np.where(std == 0, 1, std)
+
+    def safe(s):
+        return np.where(s == 0, 1, s)
+
+    several = len(x) > 1
+    return {
+        "n-minus-one": lambda: np.array(
+            [
+                mean,
+                safe(x.std(axis=0, ddof=1) if several else 0 * mean),
+            ]
+        ),
+        "about-0": np.array([mean, safe(np.sqrt(np.mean(x**2, axis=0)))]),
+        "one-for-all": np.array([0 * mean + x.mean(), 0 * mean + safe(x.std())]),
+        "spread-for-all": np.array([mean, 0 * one + safe(x.std())]),
+        "min-max": np.array([x.min(axis=0), safe(np.ptp(x, axis=0))]),
+        "constant-0": np.array([mean, std]),
+    }
+
+
+@row.right  # By hand, column by column.
+def _(x):
+    n = len(x)
+    means, spreads = [], []
+    for column in x.T:
+        mean = sum(column) / n
+        spread = np.sqrt(sum((one - mean) ** 2 for one in column) / n)
+        means.append(mean)
+        spreads.append(spread if np.ptp(column) > 0 else 1.0)
+    return np.vstack((means, spreads))
+
+
+@row.right  # The variance in one line.
+def _(x):
+    means = np.mean(x, 0)
+    spread = np.sqrt(np.mean((x - means) ** 2, 0))
+    spread[spread == 0] = 1
+    return np.stack([means, spread])
+
+
+@row.spans
+def _(rng):
+    for size in (1e-3, 1e3):
+        yield (size * rng.numbers(-1, 1, 5, 2),)

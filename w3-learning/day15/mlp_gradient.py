@@ -1,0 +1,147 @@
+"""15.6 `mlp_gradient(x, target, W1, ..., b3)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Slip
+
+from .nets import GRADIENTS, ONE, net, problems
+
+row = Row(
+    GRADIENTS,
+    slips=(
+        Slip(
+            "^ValueError.*matmul",
+            r"d\w* ?@ ?W[23]\b(?!\.T)",
+            "not-transposed",
+            "Your function stops because a weight matrix is not transposed. On the way "
+            "back, a gradient (n, outputs) is multiplied by W^T, (outputs, inputs).",
+        ),
+    ),
+)
+
+
+@row.inputs
+def _(rng):
+    yield np.ones((1, 1)), np.zeros((1, 1)), *ONE
+    yield from problems(rng)
+
+
+row.cases(
+    one_row=lambda x, *_: len(x) == 1,
+    several_rows=lambda x, *_: len(x) > 1,
+)
+row.cases(
+    a_square_second_layer=lambda x, t, W1, b1, W2, *_: W2.shape[0] == W2.shape[1],
+    layers_of_different_sizes=lambda x, t, W1, b1, W2, *_: W2.shape[0] != W2.shape[1],
+)
+
+
+def backwards(
+    x, target, arrays, slope=lambda h: 1 - h**2, first=lambda e: 2 * e / e.size
+):
+    """Return the six gradients, with another derivative of tanh, or of the loss.
+
+    Args:
+        x, target: rows.
+        arrays: the network.
+        slope: of tanh, from its output h.
+        first: from the error (n, m) to the gradient with respect to the output.
+    """
+    W1, b1, W2, b2, W3, b3 = arrays
+    h1 = np.tanh(x @ W1 + b1)
+    h2 = np.tanh(h1 @ W2 + b2)
+    d3 = first(h2 @ W3 + b3 - target)
+    d2 = (d3 @ W3.T) * slope(h2)
+    d1 = (d2 @ W2.T) * slope(h1)
+    return (
+        x.T @ d1, d1.sum(axis=0),
+        h1.T @ d2, d2.sum(axis=0),
+        h2.T @ d3, d3.sum(axis=0),
+    )  # fmt: skip
+
+
+@row.wrongs
+def _(x, target, W1, b1, W2, b2, W3, b3):
+    """slope-forgotten: the derivative of tanh is missing. Each layer's gradient is
+      multiplied by 1 - h^2, where h is the layer's output
+    slope-squared: the derivative of tanh is squared. Multiply by 1 - h^2 once per layer
+    slope-1-minus-h: the derivative of tanh is computed as 1 - h. It is 1 - h^2
+    slope-logistic: the derivative is h (1 - h), which belongs to the logistic function.
+      The derivative of tanh is 1 - h^2
+    slope-of-h: the derivative of tanh is computed as 1 - tanh(h)^2 from the layer's
+      output h. The output is tanh already, so the derivative is 1 - h^2
+    bias-mean: the gradients of the biases are means over the rows. The loss has the
+      factor 1 / (n m) already, so sum over the rows
+    summed-loss: the gradient is that of the sum of the squares. The loss is their mean,
+      so divide by n m
+    rows-only: the gradient is divided by the number of rows. The loss is a mean over
+      rows and columns, so divide by n m
+    """
+    given = x, target, (W1, b1, W2, b2, W3, b3)
+    slopes = {
+        "slope-forgotten": lambda h: 1 + 0 * h,
+        "slope-squared": lambda h: (1 - h**2) ** 2,
+        "slope-1-minus-h": lambda h: 1 - h,
+        "slope-logistic": lambda h: h * (1 - h),
+        "slope-of-h": lambda h: 1 - np.tanh(h) ** 2,
+    }
+    right = backwards(*given)
+    return {
+        **{slug: backwards(*given, slope) for slug, slope in slopes.items()},
+        "bias-mean": tuple(one / len(x) if one.ndim == 1 else one for one in right),
+        "summed-loss": backwards(*given, first=lambda e: 2 * e),
+        "rows-only": backwards(*given, first=lambda e: 2 * e / len(x)),
+    }
+
+
+@row.right  # By the complex step, entry by entry.
+def _(x, target, *arrays):
+    grads = []
+    for i, array in enumerate(arrays):
+        grad = np.zeros(array.shape)
+        for at in np.ndindex(array.shape):
+            some = [one.astype(complex) for one in arrays]
+            some[i][at] += 1e-30j
+            h = x
+            for W, b in ((some[0], some[1]), (some[2], some[3])):
+                h = np.tanh(h @ W + b)
+            loss = np.mean((h @ some[4] + some[5] - target) ** 2)
+            grad[at] = loss.imag / 1e-30
+        grads.append(grad)
+    return tuple(grads)
+
+
+@row.right  # Row by row, with outer products, and the slope as 1 / cosh^2.
+def _(x, target, W1, b1, W2, b2, W3, b3):
+    grads = [np.zeros(one.shape) for one in (W1, b1, W2, b2, W3, b3)]
+    for one, wanted in zip(x, target):
+        z1 = one @ W1 + b1
+        z2 = np.tanh(z1) @ W2 + b2
+        d3 = 2 * (np.tanh(z2) @ W3 + b3 - wanted) / target.size
+        d2 = W3 @ d3 / np.cosh(z2) ** 2
+        d1 = W2 @ d2 / np.cosh(z1) ** 2
+        for k, (h, d) in enumerate(((one, d1), (np.tanh(z1), d2), (np.tanh(z2), d3))):
+            grads[2 * k] += np.outer(h, d)
+            grads[2 * k + 1] += d
+    return tuple(grads)
+
+
+@row.right  # With a list of layers, from the last to the first.
+def _(x, target, W1, b1, W2, b2, W3, b3):
+    weights, outputs = [W1, W2, W3], [x]
+    for W, b in ((W1, b1), (W2, b2)):
+        outputs.append(np.tanh(outputs[-1] @ W + b))
+    d = 2 * (outputs[-1] @ W3 + b3 - target) / target.size
+    grads = []
+    for W, h in zip(weights[::-1], outputs[::-1]):
+        grads = [h.T @ d, np.ones(len(x)) @ d, *grads]
+        d = (d @ W.T) * (1 - h * h)
+    return tuple(grads)
+
+
+@row.spans
+def _(rng):
+    x = rng.numbers(-1, 1, 3, 2)
+    for size in (1e-3, 4.0):
+        arrays = (size * one for one in net(rng, 2, 3, 2, 2))
+        yield 4.0 * x, rng.numbers(-4, 4, 3, 2), *arrays

@@ -1,0 +1,68 @@
+"""15.5 `mse(pred, target)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row, Scalar
+
+row = Row((
+    Scalar(called="the loss"),
+    Matrix((None, None), called="the gradient"),
+))  # fmt: skip
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[1.0, 2]]), np.zeros((1, 2))
+    for n, m in ((3, 1), (2, 2), (4, 3), (1, 1), (5, 2)):
+        yield rng.numbers(-2, 2, n, m), rng.numbers(-2, 2, n, m)
+
+
+row.cases(
+    one_column=lambda pred, target: pred.shape[1] == 1,
+    several_columns=lambda pred, target: pred.shape[1] > 1,
+)
+
+
+@row.wrongs
+def _(pred, target):
+    """summed-over-columns: the squares are summed over the columns and averaged over
+      the rows. Take the mean over all n m entries
+    not-divided: the gradient is 2 (pred - target). The loss is a mean over n m entries,
+      so divide the gradient by n m as well
+    divided-by-rows: the gradient is divided by the number of rows. The loss is a mean
+      over rows and columns, so divide by n m
+    half: the loss and its gradient are half as large, as for the convention error^2 / 2
+    """
+    e = pred - target
+    n = len(e)
+    return {
+        "summed-over-columns": (np.sum(e**2) / n, 2 * e / n),
+        "not-divided": (np.mean(e**2), 2 * e),
+        "divided-by-rows": (np.mean(e**2), 2 * e / n),
+        "half": (np.mean(e**2) / 2, e / e.size),
+    }
+
+
+@row.right  # By the norm.
+def _(pred, target):
+    e = (pred - target) / np.sqrt(pred.size)
+    return np.linalg.norm(e) ** 2, 2 * e / np.sqrt(pred.size)
+
+
+@row.right  # Entry by entry.
+def _(pred, target):
+    n, m = pred.shape
+    loss = 0.0
+    slope = np.zeros((n, m))
+    for i in range(n):
+        for j in range(m):
+            e = pred[i, j] - target[i, j]
+            loss += e * e / (n * m)
+            slope[i, j] = 2 * e / (n * m)
+    return loss, slope
+
+
+@row.spans
+def _(rng):
+    for size in (1e-4, 1e3):
+        yield size * rng.numbers(-1, 1, 3, 2), size * rng.numbers(-1, 1, 3, 2)

@@ -1,0 +1,56 @@
+"""15.9 `nearest_distance(known, asked)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+row = Row(Vector((None,)))
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[0.0, 0], [3, 4]]), np.array([[0.0, 1]])
+    yield np.array([[1.0, 2]]), np.array([[1.0, 2], [4, 6]])
+    for n, m, d in ((5, 3, 2), (3, 6, 4), (8, 2, 1), (4, 4, 3)):
+        yield rng.numbers(-2, 2, n, d), rng.numbers(-2, 2, m, d)
+
+
+@row.wrongs
+def _(known, asked):
+    """squared: the result is the squared distance. Take the root
+    from-known: the distance is from each known row to the nearest asked row. Return one
+      distance per asked row
+    column-by-column: the nearest value is chosen in each column separately. The nearest
+      row is one row
+    city-block: the distance is the sum of the absolute differences. It should be
+      Euclidean
+    """
+    apart = known[:, None] - asked
+    d = np.linalg.norm(apart, axis=2)
+    return {
+        "squared": np.min(d**2, axis=0),
+        "from-known": d.min(axis=1),
+        "column-by-column": np.linalg.norm(np.abs(apart).min(axis=0), axis=1),
+        "city-block": np.abs(apart).sum(axis=2).min(axis=0),
+    }
+
+
+@row.right  # Two loops.
+def _(known, asked):
+    found = np.full(len(asked), np.inf)
+    for i, one in enumerate(asked):
+        for other in known:
+            found[i] = min(found[i], np.hypot.reduce(one - other) if len(one) > 1
+                           else abs(one[0] - other[0]))  # fmt: skip
+    return found
+
+
+@row.right  # All at once.
+def _(known, asked):
+    return np.linalg.norm(asked[:, None, :] - known[None, :, :], axis=-1).min(-1)
+
+
+@row.spans
+def _(rng):
+    for size in (1e-4, 1e3):
+        yield size * rng.numbers(-1, 1, 4, 2), size * rng.numbers(-1, 1, 3, 2)
