@@ -163,7 +163,7 @@ def times(clip):
 
 
 def test_the_clip_of_a_mistake_is_the_labs_own_arm_and_the_checkers_own_words(
-    monkeypatch,
+    editor, monkeypatch
 ):
     day = find_day(1)
     day.offered("clips")  # makes the lab importable
