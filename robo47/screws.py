@@ -191,7 +191,7 @@ def adjoint(T: ArrayLike) -> Array:
 
 
 def fk_space(screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
-    """Return the end effector's pose by space screws, e^[S1] q1 ... e^[Sn] qn M.
+    """Return the end effector's pose by space screws, e^([S1] q1) ... e^([Sn] qn) M.
 
     Many configurations of one arm are computed in one vectorised pass (`fast.chains`),
     as fast as `kinematics.fk`.
@@ -232,7 +232,7 @@ def body_screws(screws: ArrayLike, M_home: ArrayLike) -> Array:
 
 
 def fk_body(body_screws: ArrayLike, M_home: ArrayLike, q: ArrayLike) -> Array:
-    """Return the end effector's pose by body screws, M e^[B1] q1 ... e^[Bn] qn.
+    """Return the end effector's pose by body screws, M e^([B1] q1) ... e^([Bn] qn).
 
     Because M e^[B] = e^[Ad(M) B] M, this equals `fk_space` with the space screws
     Ad(M) B.

@@ -2,10 +2,11 @@
 // A guide names one in a line of its own, <!-- live: product -->; live.js begins it.
 import * as THREE from "three";
 import {
-  Rz, ONE, axis, chain, cross, dot, fixed, minus, moved, place, pose, rows3, symmetric,
-  times,
+  Rz, ONE, apart, axis, chain, cross, dot, fixed, minus, moved, place, pose, rigid, rows3,
+  symmetric, times,
 } from "./maths.js";
 import { Stage, looks } from "./stage.js";
+import { Unread, judged, read } from "./typed.js";
 
 const here = (name) => new URL(name, import.meta.url).href;
 const made = (tag, className = "", text = "") =>
@@ -17,8 +18,7 @@ async function loaded() {
     fetch(here("panda.json")).then((answer) => answer.json()),
     fetch(here("panda.bin")).then((answer) => answer.arrayBuffer()),
   ]);
-  // The numbers are those of the arm without a hand.
-  return { panda, shapes: looks(meshes).filter(({ body }) => body !== "ee") };
+  return { panda, shapes: looks(meshes) };
 }
 
 class Figure {
@@ -26,13 +26,14 @@ class Figure {
     this.panda = panda;
     this.links = panda.links;
     this.q = [...panda.ready];
-    this.shapes = shapes;
+    // The numbers of most figures are those of the arm without a hand.
+    this.shapes = this.constructor.hand ? shapes : shapes.filter(({ body }) => body !== "ee");
     const picture = element.appendChild(made("div", "picture"));
     this.side = element.appendChild(made("div", "side"));
     this.stage = new Stage(picture, { letters: 0.06, zoom: false });
     picture.setAttribute("role", "img");
     picture.setAttribute("aria-label", this.constructor.says);
-    this.arm = this.stage.arm(shapes);
+    this.arm = this.stage.arm(this.shapes);
     this.told = this.side.appendChild(made("p", "told"));
     this.begin();
     this.numbers = this.side.appendChild(made("pre"));
@@ -297,7 +298,80 @@ class Gravity extends Figure {
   }
 }
 
-const FIGURES = { product: Product, screws: Screws, ellipse: Ellipse, gravity: Gravity };
+const MISTAKES = ["Rz(-q)", "Rx(q)", "Rz(2*q)", "Rz(q)"]; // to try; the last one is right
+
+/** The home page: a line of Day 1's joint_T, its arm in red, and the checker's sentence. */
+class Mistake extends Figure {
+  static hand = true;
+  static says = "The Panda, and in red the arm of the typed mistake";
+  static hint = "Drag the picture to rotate it. The red arm is drawn where it differs.";
+  begin() {
+    this.told.remove();
+    this.q = [0, 0.5, 0, -1.4, 0, 1.9, 0.785]; // with all signs changed it bends to the back
+    this.red = this.stage.arm(this.shapes, { red: true });
+    this.code();
+    const tries = this.side.appendChild(made("p", "tries"));
+    for (const line of MISTAKES) {
+      const button = tries.appendChild(made("button", "", line));
+      button.addEventListener("click", () => this.typed(line));
+    }
+    this.verdict = this.side.appendChild(made("p", "verdict"));
+    this.verdict.setAttribute("aria-live", "polite");
+    this.joints(2, 4);
+    this.input.value = MISTAKES[0];
+  }
+
+  /** Writes the function, with a field in the place of its line. */
+  code() {
+    const code = this.side.appendChild(made("div", "code"));
+    this.input = Object.assign(made("input"), { maxLength: 200, spellcheck: false });
+    this.input.setAttribute("aria-label", "R, the rotation that joint_T gives to make_T");
+    this.input.setAttribute("autocapitalize", "off");
+    this.input.addEventListener("input", () => this.show());
+    code.append("def joint_T(q):", made("br"), "  R = ", this.input);
+    code.append(made("br"), "  return make_T(R, np.zeros(3))");
+  }
+
+  typed(line) {
+    this.input.value = line;
+    this.show();
+  }
+
+  /** The red arm and the sentence: {poses, says, right}. */
+  other() {
+    try {
+      const turn = read(this.input.value);
+      const { says, right } = judged(turn, this.table);
+      const poses = chain(this.links, this.q, (angle) => pose(turn(angle)));
+      return { says: right ? "Right, at all angles that the checker asks." : says, right, poses };
+    } catch (error) {
+      if (!(error instanceof Unread)) throw error;
+      return { poses: null, says: `Not read: ${error.message}.`, right: false };
+    }
+  }
+
+  show() {
+    if (!this.table) return this.asked();
+    const truth = chain(this.links, this.q);
+    const { poses, says, right } = this.other();
+    const drawn = poses && !right && Object.values(poses).every(rigid) ? poses : null;
+    this.stage.pose(this.arm, truth);
+    this.stage.pose(this.red, drawn, truth);
+    this.verdict.className = `verdict ${right ? "right" : "wrong"}`;
+    this.verdict.textContent = says;
+    this.numbers.textContent = poses ? `The hand is off by ${apart(poses.ee, truth.ee)[0].toFixed(0)} mm.` : "";
+    this.value = { says, drawn };
+    this.drawn();
+  }
+
+  /** Loads the table of mistakes once, then shows. */
+  async asked() {
+    this.table = (await fetch(here("ghosts.json")).then((answer) => answer.json())).typed;
+    this.show();
+  }
+}
+
+const FIGURES = { mistake: Mistake, product: Product, screws: Screws, ellipse: Ellipse, gravity: Gravity };
 
 /** Begins a figure of a guide in its place. */
 export async function begin(element) {

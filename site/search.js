@@ -1,6 +1,6 @@
 // What a search shows first. Sphinx's own script asks for `Scorer`; all but score is as it
 // has it.
-const FIRST = /^(commands|arm|index|w\d+-\w+\/docs\/)/; // what a student reads
+const FIRST = /^(commands|arm|index|README|w\d+-\w+\/docs\/)/; // what a student reads
 const LAST = /^(CHANGELOG|CONTRIBUTING|labkit|tests|docs\/(architecture|authors|cluster))/;
 var Scorer = {
   score: ([document, title, , , score]) => {

@@ -140,9 +140,13 @@ def test_what_the_checker_says_in_a_clip_is_shown_whole_or_refused(editor, name)
 
 
 def test_frames_of_a_clip_are_seen_for_their_own_times_or_it_is_refused(tmp_path):
-    frames = [clip.Frame(p, s) for p, s in zip(noise(2), (0.1, 2.0), strict=True)]
+    frames = [
+        clip.Frame(p, s, words)
+        for p, s, words in zip(noise(2), (0.1, 2.0), ("", "A `b` is 2 Ω."), strict=True)
+    ]
     says = clip.save_frames(frames, tmp_path / "a.webp")
     assert "200 x 160, 2.1 s" in says
+    assert clip.words_of(tmp_path / "a.webp") == ("A `b` is 2 Ω.",)
     with Image.open(tmp_path / "a.webp") as made:
         made.load()
         assert made.n_frames == 2
@@ -150,7 +154,17 @@ def test_frames_of_a_clip_are_seen_for_their_own_times_or_it_is_refused(tmp_path
         clip.save_frames(frames, tmp_path / "b.webp", largest=1000)
 
 
-def test_the_clip_of_a_mistake_is_the_labs_own_arm_and_the_checkers_own_words():
+def times(clip):
+    """Return how long each frame of an open clip is seen, in seconds."""
+    for i in range(clip.n_frames):
+        clip.seek(i)
+        clip.load()
+        yield clip.info["duration"] / 1000
+
+
+def test_the_clip_of_a_mistake_is_the_labs_own_arm_and_the_checkers_own_words(
+    editor, monkeypatch
+):
     day = find_day(1)
     day.offered("clips")  # makes the lab importable
     clips = day.module("clips")
@@ -160,10 +174,17 @@ def test_the_clip_of_a_mistake_is_the_labs_own_arm_and_the_checkers_own_words():
     mirrored = link_frames(with_fingers(-clips.Q))
     for name, T in clips.links(-1.0).items():
         np.testing.assert_allclose(T, mirrored[name], atol=1e-12)
-    assert clips.told(clips.RIGHT) == ("1.5  link_T, joint_T      passed",)
-    assert "gives the same output as your code" in " ".join(clips.told(clips.WRONG))
+    assert clips.told(clips.RIGHT) == ("1.5 link_T, joint_T passed",)
+    told = clips.told(clips.WRONG)
+    assert "gives the same output as your code" in told[-1]
+    arm = Image.new("RGB", [editor.SHARP * n for n in editor.ARM])
+    monkeypatch.setattr(clips, "arm", lambda sign: arm)
+    for layout in (editor.WIDE, editor.TALL):
+        editor.draw(clips.page(clips.WRONG, -1.0, told), layout)  # no line is cut
     for name in day.offered("clips"):
         path = day.folder / "figures" / f"{name}.webp"
         assert path.stat().st_size < clip.LARGEST
+        assert clip.words_of(path) == told[1:], "draw it again: make figures --clips"
         with Image.open(path) as made:
             assert made.n_frames > 30
+            assert max(times(made)) >= clips.READ >= 6.0

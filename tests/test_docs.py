@@ -217,6 +217,45 @@ def test_formulas_are_in_a_dialect_that_github_and_the_site_read(path):
         assert all(tex2mathml(formula) for formula in found)
 
 
+PAGES_OF_DAYS = [day.folder / name for day in all_days()
+                 for name in (day.guide, day.worksheet) if name]  # fmt: skip
+# A derivative in letters: qd, sdd, dq/ds, Jdot.
+BARE = re.compile(r"(?<![\w/.=])(?:[qsexvV]dd?|d?M?d[A-Za-z]/d[a-z]|ddq|Jdot)(?!\w)")
+
+
+def bare_derivatives(text):
+    """Return derivatives that are in neither a formula nor code, nor in a picture."""
+    code = r"```.*?```|`[^`]*`|!\[.*?\]\(.*?\)|\$\$.*?\$\$|\$[^$]+\$"
+    return BARE.findall(re.sub(code, "", text, flags=re.DOTALL))
+
+
+@pytest.mark.parametrize("path", [ROOT / "docs" / "notation.md", *PAGES_OF_DAYS],
+                         ids=lambda p: p.name)  # fmt: skip
+def test_a_derivative_has_its_dots_in_a_formula_and_its_letters_in_code(path):
+    assert bare_derivatives(path.read_text("utf-8")) == []
+
+
+def test_a_derivative_in_bare_letters_is_found():
+    text = "The speed sd and dq/ds, `qd`, $\\dot q$, $q_d$; a bed, x/d.\n```\nsdd\n```"
+    assert bare_derivatives(text) == ["sd", "dq/ds"]
+
+
+def test_each_day_of_the_readme_is_a_captioned_picture():
+    readme = (ROOT / "README.md").read_text("utf-8")
+    rows = [line.split(" | ") for line in readme.splitlines() if line.startswith("| ")]
+    cells = [cell.strip("| ") for row in rows for cell in row]
+    for day in all_days():
+        guide = f"{day.folder.name}/{day.guide}"
+        small = f"{day.folder.name}/figures/day{day.number}_small.png"
+        picture = f"[![A picture of day {day.number}]({small})]({guide})"
+        at = cells.index(picture)
+        says = day.see[0].upper() + day.see[1:]
+        words = f"**[Day {day.number}: {day.title}]({guide})**<br>{says}"
+        assert cells[at + 4] == words  # the row below, in the same column
+        assert day.method
+        assert day.result, f"day {day.number}: see = 'method: what the lab shows'"
+
+
 GUIDES = [day.folder / day.guide for day in all_days()]
 
 

@@ -1,6 +1,7 @@
 """The pictures of the lessons: committed, drawn again, and the command for it."""
 
 import os
+import re
 import sys
 
 import numpy as np
@@ -17,9 +18,9 @@ if not os.environ.get("ROBO47_CI"):
 from PIL import Image
 
 from labkit.commands import figures as command
-from labkit.figures import cards, client, overlay, portrait
+from labkit.figures import cards, client, overlay, portrait, sheet
 from labkit.figures.lessons import lesson_figures
-from labkit.lesson.day import Day, all_days
+from labkit.lesson.day import Day, all_days, find_day
 
 pytestmark = pytest.mark.kit
 
@@ -56,6 +57,43 @@ def test_a_days_small_picture_is_dark_and_its_number_stands_in_the_days_line(day
     assert kept.size == cards.TINY
     assert 10 < np.median(np.asarray(kept)) < 60
     assert np.asarray(kept).std() > 15  # and shows something
+
+
+@pytest.mark.parametrize("day", all_days(), ids="day{0.number}".format)
+def test_a_film_has_a_still_picture_in_the_guide_that_is_no_copy_to_hand_in(day):
+    pytest.importorskip("viser", reason="needs viser: make view")
+    films, pictures = day.offered("films"), lesson_figures(day.number)
+    guide = (day.folder / day.guide).read_text("utf-8")
+    for name in films:
+        assert name in pictures
+        path = day.folder / "figures" / f"{name}.png"
+        assert f"](../figures/{name}.png)" in guide
+        assert f"figures/{name}.png" in day.kit_figures
+        assert path.stat().st_size < 100_000
+
+
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
+TOLD = {8: "floats", 9: "pushed", 11: "strobe", 12: "hand", 13: "circles"}
+
+
+@pytest.mark.meshes
+@pytest.mark.usefixtures("real_panda")
+@pytest.mark.parametrize("number", TOLD)
+def test_the_numbers_that_a_guide_tells_of_a_picture_are_those_on_it(
+    number, monkeypatch
+):
+    day = find_day(number)
+    name = f"day{number}_{TOLD[number]}"
+    draw = lesson_figures(number)[name]
+    words = []
+    monkeypatch.setattr(client, "draw", lambda scene: np.zeros((9, 9, 3), np.uint8))
+    monkeypatch.setattr(sheet, "side_by_side", lambda *panels: words.extend(panels))
+    draw()
+    told = {x for _, *texts in words for x in NUMBER.findall(" ".join(texts))}
+    guide = (day.folder / day.guide).read_text("utf-8")
+    says = re.search(rf"!\[([^\]]*)\]\(../figures/{name}\.png\)", guide)[1]
+    assert NUMBER.findall(says)
+    assert set(NUMBER.findall(says)) <= told
 
 
 def test_a_long_number_on_a_small_picture_is_not_cut():

@@ -3,6 +3,7 @@
 import base64
 import functools
 import gzip
+import html
 import http.server
 import json
 import os
@@ -21,7 +22,8 @@ from judged import judged
 
 from conftest import ROOT, need
 from labkit.figures import backends
-from labkit.lesson.day import all_days
+from labkit.lesson.day import all_days, days_of
+from labkit.lesson.week import weeks
 from robo47 import jacobian, kinematics, panda, screws, verify
 from robo47.errors import Robo47Error
 
@@ -207,12 +209,42 @@ def test_an_equation_of_a_docstring_keeps_its_lines():
     pytest.importorskip("viser")
     from labkit.site.build import plain
 
-    says = ["The |sum|:", "", "    a = |b|  c", "    d = e", "", "- one", "  more", ""]
+    says = ["The |sum|:", "", "    a @ |b|  c", "    d = e", "", "- one", "  more", ""]
     lines = [*says, ":param q: what", "", "    it is"]
     plain(lines)
-    kept = [".. code-block:: text", "", "    a = |b|  c", "    d = e", "", "- one"]
+    kept = [".. code-block:: text", "", "    a @ |b|  c", "    d = e", "", "- one"]
     assert lines[:8] == [r"The \|sum\|:", "", *kept]
     assert lines[-3:] == [":param q: what", "", "    it is"]
+
+
+def test_formulas_of_a_docstring_are_set_and_its_words_are_not():
+    pytest.importorskip("sphinx")
+    pytest.importorskip("viser")
+    from labkit.site import equations
+    from labkit.site.build import plain
+
+    for text, wanted in {
+        "Of R^T and -R^T t. A": "Of :math:`R^{T}` and :math:`-R^{T} t`. A",
+        "It is a V_i of kg m^2.": r"It is a :math:`V_{i}` of kg m².",
+        "[[I, m [c]], [m [c]^T, m 1]].": (
+            r":math:`\begin{bmatrix}I & m [c] \\ m [c]^{T} & m 1\end{bmatrix}`."
+        ),
+        "tau = a sdd\nb sd^2 + c": r":math:`\tau  = a \ddot s b \dot s^{2} + c`",
+        "M^-1 (Ad(T^-1) S)": r":math:`M^{-1} (\mathrm{Ad} (T^{-1}) S)`",
+        ":param T_a: J_space, `R^T`, dM_ij/dq_k": None,
+        "bias + foo (R^T + bar)": None,
+    }.items():
+        assert equations.inline(text) == (wanted or text)
+    assert equations.equations(["    x+ = A |x|  y = 2"]) == [
+        r"x^{+} = A |x| \qquad y = 2"
+    ]
+    for code in ("T = A @ B", "the error is = to what was read", "hinge  slide"):
+        assert equations.equations([code]) is None
+    lines = ["|x| of", "", "    V_i = |V_(i-1)|", "", "|R^T|"]
+    plain(lines)
+    assert lines == [
+        r"\|x\| of", "", ".. math:: V_{i} = |V_{i-1}|", "", ":math:`|R^{T}|`"
+    ]  # fmt: skip
 
 
 def test_a_pages_boxes_have_labels_and_its_captions_a_level():
@@ -242,6 +274,36 @@ def test_a_command_is_told_in_a_sentence_whose_typed_parts_are_code():
         "`a/b.html` of it; `ARGS=--x`, `--y`."
     )
     assert _sentence("does it?") == "Does it?"
+    assert _sentence("write it; WEEK=1: one week") == "Write it; `WEEK=1`: one week."
+
+
+def test_all_commands_are_rows_of_two_tables(site):
+    page = (site / "commands.html").read_text("utf-8")
+    makefile = (ROOT / "Makefile").read_text("utf-8")
+    verbs = re.findall(r"^([a-z]+)%?:.*?##", makefile, re.MULTILINE)
+    assert len(verbs) > 30
+    assert page.count("<table") == 2
+    for verb in verbs:
+        assert page.count(f'id="make-{verb}"') == 1, verb
+
+
+def test_the_home_page_has_a_captioned_card_for_each_day(site):
+    page = (site / "index.html").read_text("utf-8")
+    cards = re.findall(
+        r'<div class="card .*?(?=<div class="card |</section>)', page, re.S
+    )
+    assert len(cards) == len(all_days())
+    for day, card in zip(all_days(), cards, strict=True):
+        words = html.unescape(re.sub(r"<[^>]+>|\s+", " ", card)).replace("’", "'")
+        words = " ".join(words.split())
+        assert all([day.method, day.result]), f"day {day.number}: method: result"
+        said = day.title, day.method[1:], day.result[1:]
+        parts = [str(day.number), *(part.replace("- ", "-") for part in said)]
+        places = [words.find(part) for part in parts]
+        assert places == sorted(places), words
+        assert places[0] == 0, words
+        assert f"day{day.number}_small.png" in card
+        assert f'{day.guide.replace(".md", ".html")}"' in card
 
 
 def test_a_lessons_picture_is_a_chart_on_white_or_dark_itself():
@@ -380,11 +442,16 @@ def test_a_slider_moves_the_arm_and_the_address_brings_it_back(browse):
     assert page.problems == []
 
 
-@pytest.mark.browser
-def test_a_typed_line_is_judged_and_never_run(browse):
+def typed_mistakes():
+    """Return {slug: what the checker says} of the lines that the page can judge."""
     from labkit.site import typed
 
-    says = {one["slug"]: one["says"] for one in typed.table()["named"]}
+    return {one["slug"]: one["says"] for one in typed.table()["named"]}
+
+
+@pytest.mark.browser
+def test_a_typed_line_is_judged_and_never_run(browse):
+    says = typed_mistakes()
     page = browse("arm.html#line=Rz(2*q)")
     page.wait_for_function("window.arm", timeout=60_000)
     assert page.inner_text("#says") == says["double-angle"]
@@ -451,6 +518,8 @@ def test_a_live_figure_at_a_formula_shows_the_librarys_numbers(browse, day):
 
 KINDS = (
     "index.html",
+    "README.html",
+    "commands.html",
     "arm.html",
     "search.html?q=gimbal",
     "library/dynamics.html",
@@ -476,6 +545,7 @@ def test_no_kind_of_page_has_a_part_that_cannot_be_named_or_reached(browse):
 
 
 READY = {
+    "index.html": "document.querySelector('.live').figure?.value",
     "arm.html": "window.arm",
     "search.html?q=gimbal": "document.querySelector('#search-results li a')",
     "_static/films/day1_order.html": "document.querySelector('[aria-label=speed]')",
@@ -491,6 +561,16 @@ def test_the_home_page_is_small_and_leads_to_the_arm(browse, site, served):
     files = [(site / name.removeprefix(f"{served}/")).read_bytes() for name in names]
     assert len(files) > 10
     assert sum(len(gzip.compress(file)) for file in files) < 500_000  # as it is sent
+    page.wait_for_function("document.querySelector('.live').figure?.value")
+    shown = "document.querySelector('.live').figure.value"
+    wrong = page.evaluate(f"[{shown}.says, Boolean({shown}.drawn)]")
+    assert wrong == [typed_mistakes()["turns-backwards"], True]
+    assert page.inner_text(".live .verdict") == wrong[0]
+    page.click(".live button:has-text('Rz(q)')")
+    assert page.inner_text(".live .verdict").startswith("Right, at all")
+    assert page.evaluate(f"{shown}.drawn") is None
+    page.fill(".live .code input", "Rz(q")
+    assert page.inner_text(".live .verdict").startswith("Not read: a ) is")
     link = page.get_by_text("Try it now, nothing to install")
     assert link.bounding_box()["y"] < 600
     link.click()
@@ -515,7 +595,9 @@ def test_films_are_small_and_linked_where_their_picture_stands(site):
     from labkit.site import build
 
     names = sorted(build.films())
-    assert len(names) == 7
+    days = {int(re.match(r"day(\d+)_", name)[1]) for name in names}
+    first = {day.number for week in weeks()[:2] for day in days_of(week)}
+    assert days >= first
     pages = {path: path.read_text("utf-8") for path in site.glob("w*/docs/*-lab.html")}
     for name in names:
         film = site / "_static" / "films" / f"{name}.html"

@@ -173,6 +173,9 @@ class TestItsCapstone:
         assert done.returncode == 0, done.stderr
         assert "one mark           0.00\nit points with its base" in done.stdout
         assert "1 of 1 pointed at within 1 mrad" in done.stdout
+        *_, last = done.stdout.splitlines()
+        command = 'make capstone WEEK=9 ARGS="--kit --clip pointing.gif"'
+        assert last == f"To see it: {command}"
         every = run("scripts/capstone.py", 9, "--kit", "--all")
         assert "20 of 20 pointed at within 1 mrad" in every.stdout
         none = run("scripts/capstone.py", 9, "--kit", "--ablations")
@@ -188,6 +191,7 @@ class TestItsCapstone:
         done = run("scripts/capstone.py", 9)
         assert "the library's instead of polar: wrong" in done.stdout
         assert "1 of 1 pointed at within 1 mrad" in done.stdout
+        assert done.stdout.endswith('WEEK=9 ARGS="--clip pointing.gif"\n')
 
     def test_is_on_the_proof_with_its_own_words_and_film(
         self, kit, run, begun, tmp_path

@@ -13,6 +13,7 @@ The library replaces each function of yours that does not pass `make check`.
 
 import sys
 import traceback
+from argparse import Namespace
 from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
@@ -146,12 +147,16 @@ def ablations(capstone: ModuleType, fns: Any, week: Week) -> int:
     return cli.EXIT_OK
 
 
-def one(capstone: ModuleType, fns: Any, clip: Path | None, picture: Path | None) -> int:
-    """Attempt the one that is always the same; film it and draw it where asked to."""
+def one(capstone: ModuleType, fns: Any, week: Week, options: Namespace) -> int:
+    """Attempt the one that is always the same; film it and draw it where asked to.
+
+    The last line says how to see it, unless a film was written.
+    """
     result = attempted(capstone, fns)
     told = capstone.summary(result)
     print("", *told.before, capstone.HEAD, sep="\n")
     print(capstone.row(f"one {capstone.THING}", result), *told.after, sep="\n")
+    clip, picture = options.clip, options.picture
     if clip or picture:
         from labkit.figures.clip import film_clip, film_picture
 
@@ -160,7 +165,16 @@ def one(capstone: ModuleType, fns: Any, clip: Path | None, picture: Path | None)
             print(film_picture(film, picture))
         if clip:
             print(film_clip(film, clip))
-    return verdict(capstone, int(result.failed), 1)
+    code = verdict(capstone, int(result.failed), 1)
+    if not clip:
+        print(f"To see it: {film_command(capstone, week, options.kit)}")
+    return code
+
+
+def film_command(capstone: ModuleType, week: Week, kit: bool) -> str:
+    """Return what to type for a film of the attempt."""
+    options = f"{'--kit ' if kit else ''}--clip {capstone.NAME.split()[-1]}.gif"
+    return f'make capstone WEEK={week.number} ARGS="{options}"'
 
 
 def main() -> int:
@@ -184,4 +198,4 @@ def main() -> int:
         return random_ones(capstone, fns)
     if options.ablations:
         return ablations(capstone, fns, week)
-    return one(capstone, fns, options.clip, options.picture)
+    return one(capstone, fns, week, options)

@@ -29,7 +29,7 @@ import os
 import re
 import shlex
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fnmatch import fnmatch
 from pathlib import Path
 
@@ -43,6 +43,7 @@ from robo47.errors import Robo47Error
 from robo47.paths import ROOT, shown
 
 SMALL = "figures/day{}_small.png"  # a day's thumbnail in its week's folder
+COLUMNS = 4  # of the table of thumbnails: as many as a README on GitHub has room for
 FUNCTIONS = ROOT / "docs" / "library.md"  # the page of the library, by day
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 TABLE = "table"  # asks for an output that is Markdown already
@@ -98,28 +99,55 @@ def same(old: str, new: str) -> bool:
 
 
 def days_list(wanted: str, folder: Path) -> str:
-    """Return a week's days: their pictures in a row, then a line each, with links.
+    """Return a table of captioned pictures, one per day, with links to the guides.
+
+    A document that lists one week alone also has a line for each of its days.
 
     Args:
         wanted: the name of its folder; `w*` is every week.
         folder: of the document.
     """
-    row, lines, soon = [], [], []
+    parts, soon = [], []
     for week in (w for w in weeks() if fnmatch(w.folder.name, wanted)):
         unwritten = {one.number: one.title for one in week.soon}
+        alone = week.folder.name == wanted
+        cards, lines = [], []
         for day in days_of(week):
             unwritten.pop(day.number, None)
-            names = day.guide, SMALL.format(day.number)
-            guide, small = (
-                Path(os.path.relpath(day.folder / name, folder)).as_posix()
-                for name in names
-            )
-            if (folder / small).is_file():
-                row.append(f"[![A picture of day {day.number}]({small})]({guide})")
+            guide = _between(folder, day.folder / day.guide)
+            cards += _card(day, guide, folder, day.method if alone else day.see)
             lines.append(f"- **[Day {day.number}: {day.title}]({guide})**: {day.see}")
         soon += [f"Day {n}, {title}" for n, title in sorted(unwritten.items())]
-    lines += [f"- Not written yet: {'; '.join(soon)}"] if soon else []
-    return "\n".join([*row, "", *lines] if row else lines) + "\n"
+        if cards:
+            parts += [*([] if alone else [f"**{week.heading}**"]), _grid(cards)]
+        if not cards or alone:
+            parts.append("\n".join(lines))
+    parts += [f"- Not written yet: {'; '.join(soon)}"] if soon else []
+    return "\n\n".join(parts) + "\n"
+
+
+def _between(folder: Path, path: Path) -> str:
+    """Return how a document in a folder names a file."""
+    return Path(os.path.relpath(path, folder)).as_posix()
+
+
+def _card(day: Day, guide: str, folder: Path, says: str) -> list[tuple[str, str]]:
+    """Return a day's picture and the words below it, or none without a picture."""
+    small = _between(folder, day.folder / SMALL.format(day.number))
+    if not (folder / small).is_file():
+        return []
+    picture = f"[![A picture of day {day.number}]({small})]({guide})"
+    words = f"**[Day {day.number}: {day.title}]({guide})**<br>"
+    return [(picture, f"{words}{says[0].upper()}{says[1:]}")]
+
+
+def _grid(cards: Sequence[tuple[str, str]]) -> str:
+    """Return cards as a table, a row of pictures above a row of their words."""
+    full = [*cards, *[("", "")] * (-len(cards) % COLUMNS)]
+    groups = [full[i : i + COLUMNS] for i in range(0, len(full), COLUMNS)]
+    rows = [row for group in groups for row in zip(*group, strict=True)]
+    lines = [f"| {' | '.join(row)} |" for row in rows]
+    return "\n".join([lines[0], "|" + "---|" * COLUMNS, *lines[1:]])
 
 
 def rebuilt(

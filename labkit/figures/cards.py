@@ -21,6 +21,8 @@ from labkit.figures import chart, client, fonts, portrait
 from labkit.figures.portrait import link_frames, with_fingers
 from labkit.figures.scene import Box, Camera, Ghost, Scene
 from robo47 import se3
+from robo47.errors import Robo47Error
+from robo47.panda.files import panda_folder, remedy
 
 TINY = (168, 126)  # pixels: four beside each other in a README, two on a phone
 SIZE = (672, 504)  # pixels, as it is drawn
@@ -41,6 +43,18 @@ def arm(
 ) -> Image.Image:
     """Return the Panda in the dark room, at q (7,) or (9,), with boxes beside it."""
     scene = Scene(with_fingers(q), SIZE, camera, ghosts, boxes=tuple(boxes))
+    return Image.fromarray(client.draw(scene))
+
+
+def bare(
+    q: ArrayLike, camera: Camera = WHOLE, boxes: Sequence[Box] = ()
+) -> Image.Image:
+    """Return the Panda without a hand in the dark room, at q (7,), with boxes."""
+    folder = panda_folder()
+    if folder is None:
+        raise Robo47Error(f"there is no Panda with meshes here: {remedy()}")
+    robot = str(folder / "panda_nohand.xml")
+    scene = Scene(np.asarray(q), SIZE, camera, boxes=tuple(boxes), robot=robot)
     return Image.fromarray(client.draw(scene))
 
 

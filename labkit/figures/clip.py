@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from PIL import Image
+from PIL import ExifTags, Image
 from tqdm import tqdm
 
 from labkit.figures import client
@@ -46,10 +46,11 @@ Shot = tuple[Scene, Caption]
 
 
 class Frame(NamedTuple):
-    """A picture of a clip, and how long it is seen."""
+    """A picture of a clip, how long it is seen, and the checker's words in it."""
 
     picture: Image.Image
     seconds: float
+    words: str = ""
 
 
 def there_and_back(start: Array, end: Array, count: int) -> Array:
@@ -116,12 +117,15 @@ def save_clip(
 def save_frames(frames: Iterable[Frame], path: Path, largest: int = LARGEST) -> str:
     """Write a clip of frames that are seen for different times; say so in a line.
 
+    The file keeps the words that its frames show, so that `words_of` can read them.
+
     Raises:
         Robo47Error: it is larger than `largest` bytes, or no .gif or .webp.
     """
     kind = kind_of(path)
-    pictures, seconds = zip(*frames, strict=True)
-    made = _encoded(pictures, kind, [round(1000 * s) for s in seconds])
+    pictures, seconds, words = zip(*frames, strict=True)
+    said = "\n".join(dict.fromkeys(filter(None, words)))
+    made = _encoded(pictures, kind, [round(1000 * s) for s in seconds], said)
     if len(made) > largest:
         raise Robo47Error(f"{path.name} has {len(made):,} bytes, over {largest:,}")
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -129,6 +133,13 @@ def save_frames(frames: Iterable[Frame], path: Path, largest: int = LARGEST) -> 
     width, height = pictures[0].size
     told = f"{width} x {height}, {sum(seconds):.1f} s, {len(made) / 1e3:.0f} kB"
     return f"{shown(path.absolute())}  {told}"
+
+
+def words_of(path: Path) -> tuple[str, ...]:
+    """Return the different words that the frames of a WebP clip show, in order."""
+    with Image.open(path) as clip:
+        said = clip.getexif().get(ExifTags.Base.ImageDescription, "")
+    return tuple(said.encode().decode("unicode_escape").splitlines())
 
 
 def kind_of(path: Path) -> str:
@@ -139,8 +150,13 @@ def kind_of(path: Path) -> str:
     return kind
 
 
-def _encoded(frames: Sequence[Image.Image], kind: str, each: int | list[int]) -> bytes:
+def _encoded(
+    frames: Sequence[Image.Image], kind: str, each: int | list[int], words: str = ""
+) -> bytes:
     """Return a clip's bytes; each frame, or all of them, by milliseconds."""
+    about = Image.Exif()
+    escaped = words.encode("unicode_escape").decode()  # the field is ASCII
+    about[ExifTags.Base.ImageDescription] = escaped
     buffer = io.BytesIO()
     if kind == "gif":  # one palette, no dither: what stands still costs nothing; a
         # small cube keeps its colour
@@ -150,7 +166,7 @@ def _encoded(frames: Sequence[Image.Image], kind: str, each: int | list[int]) ->
     first, *rest = frames
     first.save(
         buffer, kind.upper(), save_all=True, append_images=rest, duration=each, loop=0,
-        **({"quality": 70, "method": 6} if kind == "webp" else {}),
+        **({"quality": 70, "method": 6, "exif": about} if kind == "webp" else {}),
     )  # fmt: skip
     return buffer.getvalue()
 

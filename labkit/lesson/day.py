@@ -86,7 +86,7 @@ class Day:
 
     number: int  # a number between 1 and 47
     title: str
-    see: str  # the result of the lab, for the week's table
+    see: str  # "method: what its lab shows with it", for the tables of days
     script: str  # file name of the lab script, in src/ and in work/
     guide: str  # the lab guide
     minutes: int  # the time that the day takes
@@ -112,6 +112,16 @@ class Day:
     # The processor time of the lab's run with a student's functions.
     lab_seconds: float = entry(30.0, at="limits.lab_seconds")
     folder: Path = field(repr=False)  # the week's; no entry
+
+    @property
+    def method(self) -> str:
+        """The method that it teaches, the first part of `see`."""
+        return self.see.partition(": ")[0]
+
+    @property
+    def result(self) -> str:
+        """What its lab shows with the method, the second part of `see`."""
+        return self.see.partition(": ")[2]
 
     @property
     def source(self) -> Path:

@@ -20,7 +20,17 @@ from sphinx.application import Sphinx
 from labkit.base import processes
 from labkit.inspector.recording import Recording
 from labkit.lesson.day import all_days
-from labkit.site import access, formulas, links, meshes, notebooks, pages, robot, typed
+from labkit.site import (
+    access,
+    equations,
+    formulas,
+    links,
+    meshes,
+    notebooks,
+    pages,
+    robot,
+    typed,
+)
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, TWIN_XML
 
@@ -60,6 +70,7 @@ LONG = 55  # letters of LaTeX: a formula that a phone scrolls, since none is bro
 _MELTS = ' accent="true"'
 # the beginnings of lines that own an indented paragraph
 _MARKUP = (":", "..", "- ", "* ")
+_FORMULA = re.compile(r"(:math:`[^`]*`)")
 # docutils puts the index of an accented letter below it: q with a dot and an i.
 _BELOW = re.compile(
     r"<munderover>\s*(<mi>[^<]*</mi>)(.*?)(<mo[^>]*>[˙¨]</mo>)\s*</munderover>",
@@ -162,21 +173,42 @@ def write(page: Any, node: Any, as_block: bool = False) -> None:
 
 
 def plain(*docstring: Any) -> None:
-    """Keep the bars of a docstring's |x|, and its equations, from becoming markup."""
+    """Set the formulas of a docstring; keep its bars, |x|, from becoming markup."""
     lines = docstring[-1]
-    lines[:] = _as_they_stand([line.rstrip() for line in lines])
+    made = list[str]()
+    for alone, part in _parts([line.rstrip() for line in lines]):
+        made += _displayed(part) if alone else _prose(part)
+    lines[:] = made
 
 
-def _as_they_stand(lines: list[str]) -> Iterator[str]:
-    """Yield a docstring where what is indented after a gap keeps its lines."""
-    above, alone = "", False  # the last line at the margin; in an equation now?
+def _parts(lines: list[str]) -> Iterator[tuple[bool, list[str]]]:
+    """Yield the parts of a docstring: what is indented after a gap stands alone."""
+    above, alone = "", False  # the last line at the margin
+    part = list[str]()
     for before, line in pairwise(["", *lines]):
-        if line and not line[0].isspace():
-            above, alone = line, False
-        elif line and not before and not alone and not above.startswith(_MARKUP):
-            alone = True
-            yield from (".. code-block:: text", "")
-        yield line if alone else line.replace("|", r"\|")
+        begins = line and not before and not alone and not above.startswith(_MARKUP)
+        margin = bool(line) and not line[0].isspace()
+        if (alone and margin) or (begins and not margin):
+            yield alone, part
+            alone, part = not alone, []
+        above = line if margin else above
+        part.append(line)
+    yield alone, part
+
+
+def _displayed(lines: list[str]) -> list[str]:
+    """Return indented lines as formulas, or as they stand."""
+    formulas = equations.equations(lines)
+    if formulas is None:
+        return [".. code-block:: text", "", *lines]
+    return [line for one in formulas for line in (f".. math:: {one}", "")]
+
+
+def _prose(lines: list[str]) -> list[str]:
+    """Return other lines with their formulas marked up, and other bars kept."""
+    pieces = _FORMULA.split(equations.inline("\n".join(lines)))
+    pieces[::2] = [piece.replace("|", r"\|") for piece in pieces[::2]]
+    return "".join(pieces).split("\n")
 
 
 def fields(*member: Any) -> bool | None:

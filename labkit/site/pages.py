@@ -13,6 +13,7 @@ from pathlib import Path
 
 from labkit.lesson.day import Day, days_of
 from labkit.lesson.week import weeks
+from labkit.site import home
 from robo47.paths import ROOT
 
 DOCUMENTS = (
@@ -37,15 +38,10 @@ FIGURE = '```{raw} html\n<figure class="live" data-figure="\\1"></figure>\n```'
 COLAB = "https://colab.research.google.com/github"
 BRANCH = "notebooks"  # a branch of the repository with nothing but the days' notebooks
 FILMS = "films"  # their folder among the site's static files
-# On the site the arm's page is a click away, above all pictures.
-FIRST = re.compile(r"\A(# [^\n]+\n\n.+?\n\n)", re.DOTALL)  # title and paragraph
-TRY = (
-    r"\1**[Try it now, nothing to install](arm.md)**: type a mistake, see the arm.\n\n"
-)
 VERB = re.compile(
     r"^([a-z-]+)%?:.*?##(\d?) (.+)$", re.MULTILINE
 )  # a line of `make help`
-TYPED = re.compile(r"\b[A-Z]+=[^\s,;]+|\B--[\w-]+|\b\w+/[\w.-]*\w")
+TYPED = re.compile(r"\b[A-Z]+=[^\s,;]*[^\s,;:]|\B--[\w-]+|\b\w+/[\w.-]*\w")
 COMMANDS = """\
 # What to type: the commands
 
@@ -54,8 +50,28 @@ Type these commands in a clone of the kit. `DAY=2` selects a day, `WEEK=1` a wee
 commands are those of a day, in the order of its work.
 
 """
+TABLE = """\
+## {}
+
+```{{eval-rst}}
+.. list-table::
+   :widths: 1 3
+   :header-rows: 1
+
+   * - command
+     - what it does
+{}```
+"""
+ROW = """\
+   * - .. index:: ! make {0}
+          :name: make-{0}
+
+       ``make {0}``
+     - {1}
+"""
 LANGUAGE = {".py": "python", ".toml": "toml"}
-HOME = Path("README.md")
+HOME = Path("index.md")  # has no document of its own: see labkit.site.home
+README = Path("README.md")
 ARM = Path("site", "arm.md")
 LIBRARY = "docs/library"  # the list of the library's functions
 REFERENCE = """\
@@ -99,19 +115,23 @@ def lay_out(folder: Path, filmed: Collection[str], ran: Sequence[Day]) -> None:
     for page in pages:
         text = BY_WIDTH.sub(r"![\2](\1)", (ROOT / page).read_text("utf-8"))
         text = _with_films(text, page, filmed)
-        if page == HOME:
-            text = FIRST.sub(TRY, text)
         text = LIVE.sub(FIGURE, _with_notebook(text, notebooks.get(page)))
-        name = Path("index.md") if page == HOME else page
-        _write(folder / name, linked(text, page, pages, folder))
+        _write(folder / page, linked(text, page, pages, folder))
+    front = home.page((ROOT / README).read_text("utf-8"))
+    _write(folder / HOME, linked(front, HOME, pages, folder))
     for owner, caption, names in _contents(pages):
         above = f":caption: {caption}" if caption else ""
         with (folder / owner).open("a", encoding="utf-8") as file:
-            file.write(CONTENTS.format(above, "\n".join(f"/{name}" for name in names)))
+            file.write(CONTENTS.format(above, "\n".join(map(_entry, names))))
     shutil.copy(ROOT / ARM, folder / ARM.name)
     _write(folder / "commands.md", _commands((ROOT / "Makefile").read_text("utf-8")))
     for module in (module for _, modules in _modules() for module in modules):
         _write(folder / "library" / f"{module}.md", REFERENCE.format(module))
+
+
+def _entry(name: str) -> str:
+    """Return a page, or a title and a page, as a line of a table of contents."""
+    return name.replace("<", "</") if "<" in name else f"/{name}"
 
 
 def documents() -> set[Path]:
@@ -202,11 +222,25 @@ def _file_page(file: Path, name: Path) -> str:
 
 
 def _commands(makefile: str) -> str:
-    """Return a page with a heading per command of `make`, so that a search finds it."""
+    """Return a page with a table of the commands of `make`, which a search finds.
+
+    Each row has an entry in the index, so that a search for `make hint` leads to it.
+    """
     found = VERB.findall(makefile)
     verbs = sorted(found, key=lambda verb: (verb[1] == "", verb[1]))
-    parts = [f"## make {name}\n\n{_sentence(says)}\n" for name, _, says in verbs]
-    return COMMANDS + "\n".join(parts)
+    parts = [COMMANDS]
+    for heading, some in (
+        ("The commands of a day", [verb for verb in verbs if verb[1]]),
+        ("All other commands", [verb for verb in verbs if not verb[1]]),
+    ):
+        rows = "".join(_row(name, says) for name, _, says in some)
+        parts.append(TABLE.format(heading, rows))
+    return "\n".join(parts)
+
+
+def _row(name: str, says: str) -> str:
+    """Return a row of the table of commands, with an anchor of its own."""
+    return ROW.format(name, _sentence(says).replace("`", "``"))
 
 
 def _sentence(words: str) -> str:
@@ -233,9 +267,9 @@ def _contents(pages: set[Path]) -> Iterator[tuple[str, str, Sequence[str]]]:
     A week's days are below its page, a day's worksheet is below its guide, and the
     library's modules are below its list.
     """
-    rest = {page.with_suffix("").as_posix() for page in pages - {HOME}}
-    home = HOME.with_name("index.md").name
-    yield home, "", ["arm", "commands"]
+    rest = {page.with_suffix("").as_posix() for page in pages - {README}}
+    front = HOME.name
+    yield front, "", [f"Start <{README.with_suffix('')}>", "arm", "commands"]
     top = []
     for week in weeks():
         start = f"{week.folder.name}/"
@@ -253,11 +287,11 @@ def _contents(pages: set[Path]) -> Iterator[tuple[str, str, Sequence[str]]]:
         rest -= {own, *more}
         yield f"{own}.md", "", [*guides, *more]
         top.append(own)
-    yield home, "Days", top
+    yield front, "Days", top
     modules = [f"library/{module}" for _, some in _modules() for module in some]
     yield f"{LIBRARY}.md", "", modules
-    yield home, "Reference", [LIBRARY]
-    yield home, "Teaching and making", sorted(rest - {LIBRARY})
+    yield front, "Reference", [LIBRARY]
+    yield front, "Teaching and making", sorted(rest - {LIBRARY})
 
 
 def _write(path: Path, text: str) -> None:

@@ -7,7 +7,7 @@ The red arm is the real one's shapes, where the lab's `compose_fk` with the wron
 the ends the angles go from q to -q, so that one sees what moves where.
 """
 
-import re
+import json
 import sys
 from collections.abc import Iterator, Sequence
 from functools import cache
@@ -37,7 +37,7 @@ Q = np.array([0.0, 0.5, 0.0, -1.4, 0.0, 1.9, 0.785])
 CAMERA = Camera((0.02, 0.0, 0.56), 2.75, np.radians(108.0), np.radians(-12.0))
 STEP = 0.05  # s, of a frame in which something moves
 FOLD, BACK = 17, 12  # frames
-READ = 2.2  # s: as long as the sentence takes to be read
+READ = 6.0  # s: as long as the sentence takes to be read
 
 
 def frames(layout: editor.Layout) -> Iterator[Frame]:
@@ -49,7 +49,7 @@ def frames(layout: editor.Layout) -> Iterator[Frame]:
     for sign in soft(1.0, -1.0, FOLD):
         yield Frame(editor.draw(page(WRONG, sign), layout), STEP)
     named = page(WRONG, -1.0, told(WRONG))
-    yield Frame(editor.draw(named, layout), READ)
+    yield Frame(editor.draw(named, layout), READ, named.says[-1])
     for code, seconds in ((WRONG, 0.15), (RIGHT, 0.2)):
         yield Frame(editor.draw(page(code, -1.0, typing=True), layout), seconds)
     for sign in soft(-1.0, 1.0, BACK):
@@ -102,17 +102,23 @@ def links(sign: float) -> dict[str, np.ndarray]:
 
 @cache
 def told(code: str) -> tuple[str, ...]:
-    """Return the lines that `make check` prints of a lab with this joint_T."""
+    """Return the verdict on a lab with this joint_T, and the checker's sentences.
+
+    The call and the matrix that `make check` prints below them need more room than the
+    clip has, so the sentences alone are shown, and those are whole.
+    """
     source = find_day(1).source.read_text("utf-8")
     with TemporaryDirectory(prefix="robo47-clip-") as folder:
         file = Path(folder) / find_day(1).script
         file.write_text(source.replace(RIGHT, code), "utf-8")
         words = ["scripts/check_day.py", "1", "--task", TASK, "--file", str(file)]
-        done = processes.run([sys.executable, *words], cwd=ROOT)
-    found = re.search(rf"^  {TASK} .*?(?=^$)", done.stdout, re.M | re.DOTALL)
-    if not found:
+        done = processes.run([sys.executable, *words, "--json"], cwd=ROOT)
+    if not done.stdout:
         raise Robo47Error(f"the checker said nothing of {TASK}: {done.stderr[-300:]}")
-    return tuple(line.strip() for line in found[0].splitlines())
+    (entry,) = json.loads(done.stdout)["entries"]
+    functions = ", ".join(find_day(1).task(TASK).functions)
+    state = "passed" if entry["status"] == "passed" else entry["status"].upper()
+    return (f"{TASK} {functions} {state}", *filter(None, [entry["message"]]))
 
 
 def soft(start: float, end: float, count: int) -> list[float]:

@@ -124,10 +124,10 @@ def tipped(tipped=0.1, gravity=1.0):
 
 @numbers.add(
     "error of the torque without armature and damping", "{:.2f} N m",
-    armature=between(1.1, 1.5, "0.1 qdd contributes up to 1 N m"),
-    damping=between(1.5, 1.9, "1.0 qd contributes up to 2 N m"),
-    fastest=between(1.5, 1.9, "1.0 qd contributes up to 2 N m"),
-    hardest=between(1.1, 1.5, "0.1 qdd contributes up to 1 N m"),
+    armature=between(1.1, 1.5, "0.1 `qdd` contributes up to 1 N m"),
+    damping=between(1.5, 1.9, "1.0 `qd` contributes up to 2 N m"),
+    fastest=between(1.5, 1.9, "1.0 `qd` contributes up to 2 N m"),
+    hardest=between(1.1, 1.5, "0.1 `qdd` contributes up to 1 N m"),
     masses=same("the error does not contain the links' torque"),
     gravity=same("the error does not contain the links' torque"),
 )  # fmt: skip

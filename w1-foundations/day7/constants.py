@@ -104,7 +104,7 @@ def trapezoid(v=1.0, a=1.0):
 
 @numbers.add(
     "largest joint error, quintic", "{:.2f} mrad",
-    omega=between(0.4, 0.6, "each simulation step adds an error of ½ qdd dt² to q (dt: "
+    omega=between(0.4, 0.6, "each simulation step adds an error of ½ `qdd` dt² to q (dt: "
                   "time step); under feedback the error settles at a value "
                   "proportional to 1 / omega"),
     duration=between(0.15, 0.4, "a quarter of the acceleration"),

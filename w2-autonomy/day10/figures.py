@@ -1,6 +1,7 @@
 """The picture of Day 10, made with the lab's own functions; drawn by `make figures`.
 
 shown   the depth image, the cloud that it makes, and fits in their 95 % ellipse
+calibrated  two cameras that eight poses cannot distinguish
 """
 
 import day10_camera as lab
@@ -10,9 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-from labkit.figures import cards, chart
+from labkit.figures import cards, chart, sheet
 from labkit.figures.chart import BLUE, INK, RED
 from labkit.figures.scene import Box, Camera
+from robo47 import camera as library
 from robo47 import depth_camera, panda, scenes, se3
 from robo47.screws import skew
 
@@ -114,5 +116,54 @@ def small() -> Image.Image:
     return cards.arm(panda.READY_Q, camera, [table, cube, eye_box, *rays])
 
 
-FIGURES = {"shown": shown}
+def poses(joints: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return eight configurations (8, 7), and the hand's and the camera's poses there.
+
+    Args:
+        joints: 1 for each joint that moves, else 0, (7,).
+        seed: of the configurations.
+    """
+    away = np.random.default_rng(seed).uniform(-0.5, 0.5, (lab.LOOKS, 7))
+    q = panda.READY_Q + away * joints
+    return q, *day10_mujoco.looks(day10_mujoco.handheld(), q)
+
+
+def calibrated() -> Image.Image:
+    """Return two cameras that some poses cannot distinguish, and others can."""
+    wrong = library.apply_twist(day10_mujoco.ON_HAND, lab.FREE)
+    q, hands, _ = poses(np.eye(7)[6], lab.SEED)
+    near = Camera(tuple(hands[0][:3, 3] + [0, 0, 0.02]), 0.8, np.radians(150.0))
+    both = (day10_mujoco.ON_HAND, cards.SKY), (wrong, cards.RED)
+    eyes = [part for X, colour in both for part in camera_at(hands[0] @ X, colour)]
+    fresh, hands, seen = poses(np.ones(7), lab.SEED + 1)
+    far = Camera((0.35, 0.0, 0.4), 2.3, np.radians(150.0), np.radians(-22.0))
+    wood = (*cards.WOOD[:3], 0.5)  # points below the table are seen through it
+    middle = se3.make_T(np.eye(3), (*scenes.TABLE_CENTRE, day10_mujoco.TABLE - 0.005))
+    top = Box(middle, (*scenes.TABLE_HALF, 0.005), wood)
+    points = [dot(p, cards.RED) for p in lab.said(hands, seen, wrong)]
+    points.append(dot(day10_mujoco.TO, cards.SKY))
+    mm = 1000 * np.linalg.norm((wrong - day10_mujoco.ON_HAND)[:3, 3])
+    return sheet.side_by_side(
+        (cards.bare(q[0], near, eyes), "Only joint 7 moves",
+         f"both cameras fit exactly, {mm:.0f} mm apart"),
+        (cards.bare(fresh[0], far, [top, *points]), "Eight other poses",
+         "the table's middle, by the wrong camera"),
+    )  # fmt: skip
+
+
+def camera_at(T: np.ndarray, colour: cards.Paint) -> list[Box]:
+    """Return a camera's box and its direction of view."""
+    ahead = T[:3, 3] + 0.1 * T[:3, 2]
+    return [
+        Box(T, (0.016, 0.012, 0.02), colour),
+        cards.rod(T[:3, 3], ahead, colour, 0.003),
+    ]
+
+
+def dot(point: np.ndarray, colour: cards.Paint) -> Box:
+    """Return a small cube at a point."""
+    return Box(se3.make_T(np.eye(3), point), (0.012,) * 3, colour)
+
+
+FIGURES = {"shown": shown, "calibrated": calibrated}
 SMALL = (small, "0.8 mm")  # of a table of days, and its number

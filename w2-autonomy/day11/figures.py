@@ -2,6 +2,7 @@
 
 looks   the distance of pen and wire during one motion: samples that step over the dip,
         and the queries of the bound, each with the cone that contains the distance
+strobe  the samples of a motion, and the contact between two of them
 """
 
 import day11_distance as lab
@@ -10,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-from labkit.figures import cards, chart
+from labkit.figures import cards, chart, sheet
 from labkit.figures.chart import BLUE, GREY, INK, RED
 from labkit.figures.scene import Camera
 from robo47 import panda, shapes
@@ -96,5 +97,29 @@ def small() -> Image.Image:
     return cards.arm(q, camera, [pen, wire])
 
 
-FIGURES = {"looks": looks}
+def strobe() -> Image.Image:
+    """Return all samples of a motion that misses a wire, and its contact with it."""
+    edge = missed_edge()
+    s = np.linspace(0.0, 1.0, FINE)
+    far = day11_mujoco.far(edge, s)
+    touch = edge.q + s[np.argmin(far)] * edge.dq
+    dots = np.linspace(0.0, 1.0, POINTS + 2)
+    samples = edge.q + dots[:, None] * edge.dq
+    nearest = samples[np.argmin(day11_mujoco.far(edge, dots))]
+    start, end, _ = edge.wire
+    wire = cards.rod(start, end, cards.RED, 0.004)
+    pens = [cards.rod(*day11_mujoco.pen(q), cards.SKY, 0.005) for q in samples]
+    at_contact = cards.rod(*day11_mujoco.pen(touch), cards.ORANGE, 0.006)
+    whole = Camera((0.1, 0.2, 0.3), 2.9, np.radians(200.0), np.radians(-42.0))
+    near = Camera(tuple(day11_mujoco.pen(touch)[1]), 0.75, np.radians(200.0), -0.5)
+    least = 1000 * day11_mujoco.far(edge, dots).min()
+    return sheet.side_by_side(
+        (cards.bare(nearest, whole, [wire, *pens]), f"{POINTS} samples and both ends",
+         f"the nearest one is {least:.0f} mm from the wire"),
+        (cards.bare(touch, near, [wire, *pens, at_contact]), "Between two samples",
+         f"the pen overlaps the wire by {-1000 * far.min():.0f} mm"),
+    )  # fmt: skip
+
+
+FIGURES = {"looks": looks, "strobe": strobe}
 SMALL = (small, "39 of 60")  # the picture and the number in a table of days

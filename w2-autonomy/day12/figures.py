@@ -1,6 +1,7 @@
 """The picture of Day 12, made with the lab's own functions; drawn by `make figures`.
 
 way     both trees in the plane and their path; the speed and torques along a path
+hand    two plans over the wall, with the hand omitted and with the whole arm
 """
 
 from typing import NamedTuple
@@ -12,10 +13,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from PIL import Image
 
-from labkit.figures import cards, chart
+from labkit.figures import cards, chart, sheet
 from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, RED, SKY
 from labkit.figures.scene import Box, Camera
-from robo47 import panda, simulate
+from robo47 import panda, shapes, simulate
 from robo47 import planning as library
 
 import day12_mujoco
@@ -136,5 +137,46 @@ def small() -> Image.Image:
     return cards.arm(above, camera, boxes)
 
 
-FIGURES = {"way": way}
+def planned(forget: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray, float]:
+    """Return a shortened path as configurations, the worst one and its distance, m.
+
+    The collision checker of the plan omits some links. Of all plans of the lab with the
+    hand omitted it is the one with the deepest collision; with the whole arm the first.
+    """
+    wall = day12_mujoco.Wall(forget)
+    plans = lab.FORGOTTEN if forget else 1
+    paths = lab.shorter(wall, lab.plan_with(wall, plans)[1])
+    path = min(paths, key=lambda one: lab.least_distance(wall, one))
+    along = lab.dense(path, lab.LOOKS)
+    far = [wall.apart(q, wall.pairs) for q in along]
+    return along, along[int(np.argmin(far))], min(far)
+
+
+def pen(q: np.ndarray) -> np.ndarray:
+    """Return the ends of the pen at configurations (..., 7): (..., 2, 3)."""
+    return shapes.Shape(panda.load("panda_nohand"), [shapes.PEN]).ends(q)[..., 0, :, :]
+
+
+def hand() -> Image.Image:
+    """Return the worst pose of two plans, with the hand omitted and without."""
+    (T_world_wall, half), _ = day12_mujoco.Wall().boxes
+    wood = (*cards.WOOD[:3], 0.45)  # so that the pen is seen inside it
+    camera = Camera((0.42, 0.0, 0.38), 2.1, np.radians(150.0), np.radians(-20.0))
+    panels = []
+    for forget, name, colour in (
+        ((7,), "Hand omitted", cards.RED), ((), "Whole arm", cards.SKY)
+    ):  # fmt: skip
+        along, worst, far = planned(forget)
+        boxes = [
+            Box(T_world_wall, half, wood),
+            *cards.line(pen(along)[::8, 1], colour, 0.006),
+            cards.rod(*pen(worst), colour, 0.01),
+        ]
+        says = "inside the wall" if far < 0 else "from the wall or the roof"
+        told = f"{1000 * abs(far):.0f} mm {says}"
+        panels.append((cards.bare(worst, camera, boxes), name, told))
+    return sheet.side_by_side(*panels)
+
+
+FIGURES = {"way": way, "hand": hand}
 SMALL = (small, "60 of 60")  # of a table of days, and its number

@@ -1,6 +1,7 @@
 """The picture of Day 13, made with the lab's own functions; drawn by `make figures`.
 
 best    measured over predicted cost against the distance of the start; the circle
+circles  the circle in space, drawn with three methods
 """
 
 import day13_optimal as lab
@@ -9,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-from labkit.figures import cards, chart
+from labkit.figures import cards, chart, sheet
 from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, RED
+from labkit.figures.scene import Camera
 from robo47 import panda
 from robo47.jacobian import dls_step
 
@@ -60,11 +62,8 @@ def _promise(axes: Axes, model) -> None:
 def _circle(axes: Axes, model) -> None:
     """Draw the hand's error on the circle, with clamped steps and with `qp_ik`."""
 
-    def clipped(J, e, lo, hi):
-        return np.clip(dls_step(J, e, lab.DAMPING), lo, hi)
-
     ways = {
-        "Day 3's step, clamped": (clipped, RED, "--"),
+        "Day 3's step, clamped": (clamped, RED, "--"),
         "qp_ik": (lab.best_step(), BLUE, "-"),
         "qp_ik, orientation weight 0.01": (lab.best_step(0.01), GREEN, "-."),
     }
@@ -78,15 +77,54 @@ def _circle(axes: Axes, model) -> None:
     axes.grid()
 
 
+def clamped(J, e, lo, hi):
+    """Return Day 3's damped least-squares step, clamped to its limits."""
+    return np.clip(dls_step(J, e, lab.DAMPING), lo, hi)
+
+
+def drawn(model, step) -> tuple[np.ndarray, np.ndarray, float]:
+    """Return a circle's angles, the points of the hand and its largest error, mm."""
+    steps = [day13_mujoco.circle(model, lab.RADIUS, np.zeros(1))[1]]
+
+    def kept(*given):
+        steps.append(step(*given))
+        return steps[-1]
+
+    off, _, _ = lab.draw_circle(model, kept)
+    q = np.cumsum(steps, axis=0)
+    arm = panda.arm(model)
+    return q, np.array([arm.at(one).T_world_ee[:3, 3] for one in q]), off.max()
+
+
+def circles() -> Image.Image:
+    """Return the upper part of the circle that each of three methods draws."""
+    model = day13_mujoco.arm()
+    times = np.arange(0.0, day13_mujoco.LAP, lab.DT)
+    wanted = day13_mujoco.circle(model, lab.RADIUS, times)[0][:, :3, 3]
+    camera = Camera((0.35, 0.06, 0.78), 1.25, np.radians(195.0), np.radians(-14.0))
+    panels = []
+    for name, step, colour in (
+        ("Day 3's step, clamped", clamped, cards.RED),
+        ("qp_ik", lab.best_step(), cards.SKY),
+        ("qp_ik, orientation weight 0.01", lab.best_step(0.01), cards.GREEN),
+    ):
+        q, points, worst = drawn(model, step)
+        far = np.linalg.norm(points[: len(wanted)] - wanted, axis=1).argmax()
+        grey = (0.6, 0.63, 0.66, 1.0)
+        boxes = cards.line(wanted[::3], grey, 0.004)
+        boxes += cards.line(points[: len(wanted) : 2], colour, 0.007)
+        boxes.append(cards.rod(wanted[far], points[far], cards.ORANGE, 0.009))
+        told = f"largest error {worst:.0f} mm"
+        panels.append((cards.bare(q[0], camera, boxes), name, told))
+    return sheet.side_by_side(*panels)
+
+
 def small() -> Image.Image:
     """Return how far the hand is off the circle, clipped and best, without words."""
     model = day13_mujoco.arm()
 
-    def clipped(J, e, lo, hi):
-        return np.clip(dls_step(J, e, lab.DAMPING), lo, hi)
-
     def draw(axes: Axes) -> None:
-        for step, colour in ((clipped, "#ff6b5e"), (lab.best_step(), chart.SKY)):
+        for step, colour in ((clamped, "#ff6b5e"), (lab.best_step(), chart.SKY)):
             off, _, _ = lab.draw_circle(model, step)
             axes.plot(lab.DT * np.arange(len(off)), off, color=colour)
         axes.set(xlim=(0.8, 2.8))
@@ -94,5 +132,5 @@ def small() -> Image.Image:
     return cards.curves(draw)
 
 
-FIGURES = {"best": best}
+FIGURES = {"best": best, "circles": circles}
 SMALL = (small, "")  # of a table of days, and its number

@@ -1,6 +1,7 @@
 """The picture of Day 14, made with the lab's own functions; drawn by `make figures`.
 
 touched   two cubes between the pads with their friction cones; a learned policy
+slip      the end of two lifts with the learned policy
 """
 
 import day14_touch as lab
@@ -10,10 +11,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from PIL import Image
 
-from labkit.figures import cards, chart
+from labkit.figures import cards, chart, sheet
 from labkit.figures.chart import BLUE, INK, RED
 from labkit.figures.scene import Box, Camera
 from robo47 import panda, scenes, se3
+from robo47.jacobian import dls_step
+from robo47.rotation_log import pose_error
 
 import day14_mujoco
 
@@ -99,6 +102,72 @@ def _tried(axes: Axes, model, data, theta: np.ndarray) -> None:
     axes.grid()
 
 
+def lifted(mu: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return an episode of the learned policy with a cube of 150 g.
+
+    Returns:
+        The Panda's configurations (n, 9), with hand and pads of the episode, the
+        cube's positions relative to the point between the pads when it is grasped,
+        (n, 3), and the smallest margins of the friction cone, N, (n,).
+    """
+    model, data = day14_mujoco.hand()
+    theta = lab.learn(model, data, lab.SEED)
+    cube = day14_mujoco.Cube(0.0, 0.0, 0.0, MASS, mu)
+    action = lab.act(
+        theta, lab.observe(se3.make_T(np.eye(3), (0, 0, 0.02)), np.zeros(3))
+    )
+    action[:3] = 0.0  # a centred grasp, so that friction alone decides
+    pads, heights, places, margins = [], [], [], []
+    for _ in day14_mujoco.episode(model, data, cube, action):
+        felt = day14_mujoco.felt(model, data)
+        margin = lab.cone_margin(felt.force, felt.normal, felt.mu)
+        margins.append(margin.min() if len(margin) else 0.0)
+        pads.append([data.joint(name).qpos[0] for name in ("left", "right")])
+        heights.append(data.body("hand").xpos[2])
+        places.append(data.body("cube").xpos.copy())
+    rise = np.array(heights) - action[3]
+    arm = panda.arm(panda.load("panda_nohand"))
+    goals = np.tile(arm.at(panda.READY_Q).T_world_ee, (len(rise), 1, 1))
+    goals[:, 2, 3] += rise
+    angles = followed(arm, goals)
+    return (
+        np.hstack([angles, pads]),
+        np.array(places) - [0, 0, action[3]],
+        np.array(margins),
+    )
+
+
+def followed(arm, goals: np.ndarray) -> np.ndarray:
+    """Return angles of the arm at neighbouring poses of the hand, (n, 7)."""
+    q = panda.READY_Q.copy()
+    found = []
+    for goal in goals:
+        for _ in range(3):
+            now = arm.at(q)
+            q = q + dls_step(now.J_site, pose_error(now.T_world_ee, goal), 1e-3)
+        found.append(q)
+    return np.array(found)
+
+
+def slip() -> Image.Image:
+    """Return the end of two lifts with the same policy, on two frictions."""
+    T = panda.arm(panda.load("panda_nohand")).at(panda.READY_Q).T_world_ee
+    tcp = (T @ se3.make_T(np.eye(3), scenes.TCP))[:3, 3]
+    camera = Camera((tcp[0], tcp[1], tcp[2] + 0.06), 0.95, np.radians(160.0))
+    panels = []
+    for mu in GRIPS:
+        q, cube, _ = lifted(mu)
+        up = cube[-1, 2] - cube[0, 2]
+        half = (day14_mujoco.HALF,) * 3
+        box = Box(se3.make_T(np.eye(3), tcp + cube[-1]), half, cards.ORANGE)
+        floor = tcp + cube[0] - [0, 0, day14_mujoco.HALF + 0.005]
+        table = Box(se3.make_T(np.eye(3), floor), (0.2, 0.2, 0.005), cards.WOOD)
+        told = f"the cube is {1000 * up:.0f} mm above the table"
+        picture = cards.arm(q[-1], camera, [box, table])
+        panels.append((picture, f"Friction {mu}", told))
+    return sheet.side_by_side(*panels)
+
+
 def small() -> Image.Image:
     """Return the hand with a cube between its fingers."""
     half = day14_mujoco.HALF
@@ -110,5 +179,5 @@ def small() -> Image.Image:
     return cards.arm(q, camera, [cube])
 
 
-FIGURES = {"touched": touched}
+FIGURES = {"touched": touched, "slip": slip}
 SMALL = (small, "60 of 60")  # of a table of days, and its number

@@ -1,6 +1,7 @@
 """The picture of Day 8, made with the lab's own functions; drawn by `make figures`.
 
 shown   singular values of two motions, and the error of a predicted torque
+floats  the loaded arm after two seconds, without and with the identified load
 """
 
 import day8_identification as lab
@@ -9,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-from labkit.figures import cards, chart
+from labkit.figures import cards, chart, sheet
 from labkit.figures.chart import BLUE, INK, RED
-from labkit.figures.scene import Box
-from robo47 import panda, se3
+from labkit.figures.scene import Box, Camera
+from robo47 import panda, se3, simulate
 
 import day8_mujoco
 
@@ -94,5 +95,62 @@ def small() -> Image.Image:
     return cards.arm(q, boxes=[cards.rod(hand, below, cards.ORANGE), ball])
 
 
-FIGURES = {"shown": shown}
+def floating() -> dict[str, simulate.Run]:
+    """Return how the loaded arm floats, by the load in the model of its gravity.
+
+    The noise of the measurements is the lab's own, so the numbers are the lab's, too.
+    """
+    model = panda.load("panda_nohand", drive="torque")
+    arm = panda.arm(model)
+    robot = day8_mujoco.changed(model, lab.ROBOT_SEED)
+    rng = np.random.default_rng(lab.NOISE_SEED)
+    rng.normal(size=day8_mujoco.swing().q.shape)
+    excited = day8_mujoco.excitation(robot, lab.ROBOT_SEED)
+    tau = lab.mujoco_torques(robot, excited) + lab.NOISE * rng.normal(
+        size=excited.q.shape
+    )
+    fast = np.abs(excited.qd) > lab.SLOW
+    phi = lab.truncated_svd_fit(lab.regressor(arm, excited)[fast], tau[fast], lab.RTOL)
+    rng.normal(size=excited.q.shape)
+    load = day8_mujoco.load(lab.LOAD, lab.AT)
+    hung = panda.load("panda_nohand", drive="torque", edit=load)
+    loaded = day8_mujoco.changed(hung, lab.ROBOT_SEED)
+    found = lab.weighings(robot, loaded, arm, rng)["each from both sides"][0]
+    rest = np.zeros(7)
+
+    def still(now):
+        Y = lab.arm_regressor(now.J_space, now.T_links, rest, rest, arm.gravity)
+        return Y @ phi[:70]
+
+    loads = {"No load in the model": np.zeros(4), "Identified load": found}
+    return {
+        name: day8_mujoco.floats(loaded, arm, still, load)
+        for name, load in loads.items()
+    }
+
+
+def floats() -> Image.Image:
+    """Return the arm with its payload after two seconds of floating, and its start."""
+    arm = panda.arm(panda.load("panda_nohand"))
+    camera = Camera((0.25, 0.0, 0.4), 2.3)
+    panels = []
+    for name, run in floating().items():
+        hands = np.array([arm.at(q).T_world_ee[:3, 3] for q in run.q[::20]])
+        rise = 1000 * (arm.at(run.q[-1]).T_world_ee - arm.at(run.q[0]).T_world_ee)[2, 3]
+        told = (
+            f"the hand {'sinks' if rise < 0 else 'rises'} by {abs(rise):.0f} mm in 2 s"
+        )
+        boxes = cards.line(hands, cards.RED if rise < -100 else cards.SKY, 0.008)
+        boxes.append(payload(arm.at(run.q[-1]).T_world_ee))
+        panels.append((cards.bare(run.q[-1], camera, boxes), name, told))
+    return sheet.side_by_side(*panels)
+
+
+def payload(T_world_ee: np.ndarray) -> Box:
+    """Return the payload as a cube at its centre of mass."""
+    T = T_world_ee @ se3.make_T(np.eye(3), lab.AT)
+    return Box(T, (0.035, 0.035, 0.035), cards.ORANGE)
+
+
+FIGURES = {"shown": shown, "floats": floats}
 SMALL = (small, "500 g")  # of a table of days, and its number

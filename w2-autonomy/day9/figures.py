@@ -1,6 +1,7 @@
 """The picture of Day 9, made with the lab's own functions; drawn by `make figures`.
 
 felt    the error of a filtered velocity over its cutoff; the residuals of a push
+pushed  the arm after a push, with a bar of the residual at each joint
 """
 
 import day9_estimation as lab
@@ -9,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-from labkit.figures import cards, chart
+from labkit.figures import cards, chart, sheet
 from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, RED, SKY
-from labkit.figures.scene import Camera
+from labkit.figures.scene import Box, Camera
 from robo47 import panda
 
 import day9_mujoco
@@ -75,5 +76,40 @@ def small() -> Image.Image:
     return cards.arm(q, Camera((0.2, 0.0, 0.55), 2.6), push)
 
 
-FIGURES = {"felt": felt}
+def pushed() -> Image.Image:
+    """Return the arm after a push; a bar along each joint's axis is its residual."""
+    model = panda.load("panda_nohand", drive="torque")
+    arm = panda.arm(model)
+    push = day9_mujoco.push(lab.FLANGE, lab.FORCE, lab.SINCE)
+    run = day9_mujoco.moved(model, arm, day9_mujoco.STAY, lab.SINCE + 0.15, push)
+    residual = lab.felt(arm, run)
+    camera = Camera((0.2, 0.0, 0.5), 2.4)
+    panels = []
+    for ms in (10, 100):
+        k = round((lab.SINCE + ms / 1000) / lab.DT)
+        bars = [bar for one in bars_of(arm, run.q[k], residual[k]) for bar in one]
+        at = arm.at(run.q[k]).T_world_ee[:3, 3] + [0, 0, 0.16]
+        force = cards.arrow(at - 0.025 * lab.FORCE, at, cards.RED, 0.008)
+        largest = np.abs(residual[k]).argmax()
+        told = f"joint {largest + 1}: {residual[k, largest]:.1f} N m"
+        picture = cards.bare(run.q[k], camera, [*bars, *force])
+        panels.append((picture, f"{ms} ms after the push", told))
+    return sheet.side_by_side(*panels)
+
+
+def bars_of(arm, q: np.ndarray, residual: np.ndarray) -> list[list[Box]]:
+    """Return a bar along each joint's axis, longer by 0.1 m per N m of its residual.
+
+    A residual above the threshold of the lab is orange.
+    """
+    now = arm.at(q)
+    found = []
+    for T, x in zip(now.T_links, residual, strict=True):
+        colour = cards.ORANGE if abs(x) > lab.THRESHOLD else cards.SKY
+        ends = T[:3, 3] + np.outer([-1.0, 1.0], T[:3, 2]) * (0.08 + 0.05 * abs(x))
+        found.append([cards.rod(*ends, colour, 0.012)])
+    return found
+
+
+FIGURES = {"felt": felt, "pushed": pushed}
 SMALL = (small, "10 N")  # of a table of days, and its number

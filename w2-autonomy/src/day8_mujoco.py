@@ -342,6 +342,19 @@ def rises(
 ) -> float:  # fmt: skip
     """Return the rise of the hand, m, in two seconds of gravity compensation alone.
 
+    It is negative if the hand sinks. The arguments are those of `floats`.
+    """
+    run = floats(model, known, still, load)
+    before, *_, end = (known.at(q).T_world_ee[2, 3] for q in run.q)
+    return float(end - before)
+
+
+def floats(
+    model: mujoco.MjModel, known: Arm, still: Callable[[ArmState], Array],
+    load: ArrayLike,
+) -> simulate.Run:  # fmt: skip
+    """Return two seconds of gravity compensation alone, from ready.
+
     The robot's dry friction is removed, so that only the motors hold it.
 
     Args:
@@ -349,9 +362,6 @@ def rises(
         known: the kinematics of the arm.
         still: maps the arm at a configuration to its gravity torque without load, (7,).
         load: (m, m c) of the load that is compensated, in the site's frame, (4,).
-
-    Returns:
-        The rise in metres; it is negative if the hand sinks.
     """
     load = checks.array(load, "load", (4,))
     free = without_friction(model)
@@ -361,6 +371,4 @@ def rises(
         hand = now.J_site, now.T_world_ee[:3, :3]
         return still(now) + identification.load_regressor(*hand, known.gravity) @ load
 
-    run = simulate.run(free, simulate.start(free, READY_Q), law, FLOAT, rate=SLOW_RATE)
-    before, *_, end = (known.at(q).T_world_ee[2, 3] for q in run.q)
-    return float(end - before)
+    return simulate.run(free, simulate.start(free, READY_Q), law, FLOAT, rate=SLOW_RATE)
