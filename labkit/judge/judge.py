@@ -489,8 +489,9 @@ def what_is_wrong(case: Case, S: Parts, T: Parts) -> Finding:
             where += f" {it} is right for {np.sum(~wrong)} of {len(wrong)} inputs"
             where += f"{_first(wrong, case.given, 'but not for')}."
     right = _right_results(case, S, T)
-    called = capitalised(called) if right else called
-    says = f"{right}{called}{found.message}{where}{_wrong_too(case, S, T, i)}"
+    says = (
+        f"{right}{capitalised(called)}{found.message}{where}{_wrong_too(case, S, T, i)}"
+    )
     return Finding(found.slug, says)
 
 

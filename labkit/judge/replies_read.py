@@ -10,7 +10,15 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Reply
 from labkit.judge import results
-from labkit.judge.answers import InTurn, Parts, as_one, as_real, own, parts
+from labkit.judge.answers import (
+    InTurn,
+    Parts,
+    as_one,
+    as_real,
+    capitalised,
+    own,
+    parts,
+)
 from labkit.judge.ask import Ask, Asked, of_complex, replies, stacked
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
@@ -191,7 +199,10 @@ def of_another_size(asked: Asked) -> Finding | None:
         if got != right:
             says = kind.another_size(got, right)
             where = f"in call {i + 1} of {len(asked.main)}"
-            return Finding("shape", f"{says}, {where}.")
+            called = (
+                f"{kind.called}: " if kind.called and len(asked.ask.kinds) > 1 else ""
+            )
+            return Finding("shape", f"{capitalised(called)}{says}, {where}.")
     return None
 
 
