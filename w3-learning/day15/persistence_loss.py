@@ -44,6 +44,7 @@ row.cases(
     hidden={
         "by-number": "each number of the lab occurs once",
         "mean-of-means": "each episode of the lab has 60 rows",
+        "mean-of-means 2": "each episode of the lab has 60 rows",
     }
 )
 def _(action, episode):
@@ -57,6 +58,8 @@ def _(action, episode):
     summed-over-columns: the squares are summed over the columns. Take the mean over the
       columns, as `mse` does
     mean-of-means: the result is the mean of one mean per episode. Take one mean over
+      all pairs, so that each pair has the same weight
+    mean-of-means 2: the result is the mean of one mean per episode. Take one mean over
       all pairs, so that each pair has the same weight
     mean-action: the result is the loss of the mean action, which is the variance. Use
       the action of the row before as the prediction
@@ -80,6 +83,7 @@ def _(action, episode):
         "counted-as-0": np.mean(change**2 * same[:, None]),
         "summed-over-columns": np.sum(change[same] ** 2) / same.sum(),
         "mean-of-means": np.mean([np.mean(one**2) for one in each if len(one)]),
+        "mean-of-means 2": np.mean([np.mean(one**2) for one in joined if len(one)]),
         "mean-action": np.mean((action - action.mean(axis=0)) ** 2),
         "divided-by-all": np.sum(change[same] ** 2) / action.size,
         "across-columns": np.mean(across**2) if across.size else np.nan,
