@@ -247,7 +247,7 @@ class TestATuple:
             (
                 lambda i, point, free: (float(i), (point, free)),
                 "not-an-index",
-                "the place: Your function returns",
+                "The place: Your function returns",
             ),
             (
                 lambda i, point, free: (i, point, free),

@@ -60,7 +60,7 @@ def test_one_counterexample_among_the_fresh_inputs_and_a_case_is_not_right():
 def test_fresh_inputs_are_drawn_only_while_a_case_may_be_right():
     known = []
     says = told(toy(), lambda x: 3 * x + 1, known)
-    assert says.startswith("Wrong in some calls of every case")
+    assert says.startswith("The result is wrong in some calls of every case")
     assert known == []
     told(toy(), lambda x: 3 * x if x < 0 or 5 < x < 5.2 else x, known)
     refuted = len(known)
@@ -185,7 +185,7 @@ OF_THE_REVIEW = [
     (11, first_reach, "The result is right for steps with equal radii"),
     (11, steep_only,
      "The result is right for velocities that are allowed and gradients of 0. It is "
-     "wrong in some calls with"
+     "wrong in some calls with "
      "velocities that are too fast, at a positive distance; velocities that are too "
      "fast, at a distance of 0 or less."),
     (11, shallow, "points beyond three faces. It is wrong for points in the box."),

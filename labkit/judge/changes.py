@@ -200,9 +200,11 @@ def _far(x: Any) -> Made:
 def _far_of_array(x: Array) -> Made:
     shape = _shape(x)
     yield "normalised", "`{0}` is normalised", _unit
-    yield "first-for-all", "every entry of `{0}` is replaced by the first", _first
-    yield "last-for-all", "every entry of `{0}` is replaced by the last", _last
-    yield "mean", "every entry of `{0}` is replaced by their mean", _mean
+    entry, entries = ("row", "rows") if len(shape) == 2 else ("entry", "entries")
+    every = f"every {entry} of `{{0}}` is replaced by the"
+    yield "first-for-all", f"{every} first", _first
+    yield "last-for-all", f"{every} last", _last
+    yield "mean", f"{every} mean of all {entries}", _mean
     yield "sorted", "`{0}` is sorted", partial(np.sort, axis=0)
     yield (
         "summed-up",
@@ -214,16 +216,16 @@ def _far_of_array(x: Array) -> Made:
             missing = partial(_only, end)
             yield (
                 "entry-missing",
-                f"the {where} entry of `{{0}}` is replaced by 0",
+                f"the {where} {entry} of `{{0}}` is replaced by 0",
                 missing,
             )
-            says = f"the {where} entry of `{{0}}` is omitted"
+            says = f"the {where} {entry} of `{{0}}` is omitted"
             yield "entry-missing", says, partial(_cut, end)
         for some, where in ((slice(1), "first"), (slice(-1, None), "last")):
-            says = f"all entries of `{{0}}` except the {where} are replaced by 0"
+            says = f"all {entries} of `{{0}}` except the {where} are replaced by 0"
             yield f"{where}-only", says, partial(_only, some)
         for by in (1, -1):
-            says = "the entries of `{0}` are shifted by one"
+            says = f"the {entries} of `{{0}}` are shifted by one"
             yield "shifted", says, partial(np.roll, shift=by, axis=0)
             yield "shifted", says, partial(_shifted, by)
     if shape == (3,):

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from labkit.judge.answers import Parts, capitalised, gaps
+from labkit.judge.hypothesis import equals
 from labkit.judge.matcher import Matcher
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.pairs import of_its_own_first
@@ -37,7 +38,8 @@ def by_results(m: Matcher) -> Finding | None:
         for j in some if every else ():
             again = _put(m.S, every, j)
             differs = gaps([kinds[j]], (every[j],), (m.T[j],)).max() > m.ask.near
-            if differs and m.main.difference.explained(again).all():
+            exact = equals([kinds[j]], (m.S[j],), (every[j],))  # one result says little
+            if differs and exact and m.main.difference.explained(again).all():
                 told[j] = one
     if not told:
         return None

@@ -332,7 +332,9 @@ def few_told(where: str, wrong: Array, off: str) -> Finding:
         off: by how much, in words.
     """
     if 2 * wrong.any(axis=1).sum() < len(wrong):
-        says = f"Some calls are right. In the others, only {where} is wrong: off by"
+        says = (
+            f"Some calls are right. In the others, only this is wrong: {where}, off by"
+        )
         return Finding("few-entries-off", f"{says} up to {off}.")
     says = f"All entries are right except {where}. The largest error is {off}. Look for"
     return Finding("few-entries-off", f"{says} a wrong sign, letter or factor.")

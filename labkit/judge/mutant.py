@@ -359,7 +359,9 @@ def _what(node: ast.AST) -> str:
 
 def _how(new: Any, node: ast.AST) -> str:
     """Return how an expression is made of the parts of another one."""
-    parts = [node, *ast.iter_child_nodes(node)]
+    children = list(ast.iter_child_nodes(node))
+    below = chain.from_iterable(map(ast.iter_child_nodes, children))
+    parts = [node, *children, *(one for one in below if isinstance(one, ast.expr))]
     if found := [k for k, part in enumerate(parts) if part is new]:
         return f"#{found[0]}"
     if not isinstance(new, ast.AST):

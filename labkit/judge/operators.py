@@ -337,6 +337,8 @@ def _of_call(node: ast.Call, names: Sequence[str]) -> Iterator[Mutation]:
         yield "left-out", args[0]
     if isinstance(function, ast.Attribute) and not of_numpy:
         yield "left-out", function.value
+    elif of_numpy and args and isinstance(args[0], ast.BinOp):
+        yield from _closed_early(node, args[0])
     for i, k in combinations(range(min(len(args), FEW)), 2):
         yield "order", ast.Call(function, _swapped(args, i, k), node.keywords)
     yield from _twins(node, TWINS)
@@ -352,6 +354,13 @@ def _of_call(node: ast.Call, names: Sequence[str]) -> Iterator[Mutation]:
         yield from (("name", _name(one)) for one in names)
     if args and name not in ("range", "len", "zip", "int", "enumerate"):
         yield from filled(FACTOR, X=node)
+
+
+def _closed_early(node: ast.Call, inner: ast.BinOp) -> Iterator[Mutation]:
+    """Yield f(a) + b for f(a + b): np.mean(x) ** 2 for np.mean(x ** 2)."""
+    if isinstance(inner.op, ast.Add | ast.Sub | ast.Pow):
+        part = ast.Call(node.func, [inner.left, *node.args[1:]], node.keywords)
+        yield "bracket", ast.BinOp(part, inner.op, inner.right)
 
 
 def _twins(node: ast.Call, twins: Sequence[tuple[str, str]]) -> Iterator[Mutation]:

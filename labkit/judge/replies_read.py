@@ -10,7 +10,14 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Reply
 from labkit.judge import results
-from labkit.judge.answers import InTurn, Parts, as_one, as_real, own, parts
+from labkit.judge.answers import (
+    InTurn,
+    Parts,
+    as_one,
+    as_real,
+    own,
+    parts,
+)
 from labkit.judge.ask import Ask, Asked, of_complex, replies, stacked
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict

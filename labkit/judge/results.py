@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from labkit.base.text import count
+from labkit.judge.answers import capitalised
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding
 from robo47.errors import Robo47Error
@@ -96,7 +97,7 @@ def read(kind: Kinds, values: Sequence[Any]) -> list[list[Any]] | Finding:
         part = one.read(column)
         if isinstance(part, Finding):
             called = f"{one.called or 'One result'}: " if len(kinds) > 1 else ""
-            return Finding(part.slug, called + part.message)
+            return Finding(part.slug, capitalised(called) + part.message)
         found.append(part)
     return found
 

@@ -20,6 +20,7 @@ from labkit.lesson.lab_module import definition
 from labkit.lesson.starter import function_lines
 
 MODULES = ("np", "se3", "screws", "math")
+EVERYWHERE = ", in every line of its kind"  # of a change that is made in several places
 
 # What is said of a change where its place says no more.
 SAYS = {
@@ -97,7 +98,7 @@ def _of_the_formula(m: Any, mutant: Mutant) -> str:
 
 def shows(m: Any, mutant: Mutant) -> bool:
     """Return whether a student can see where a mutant's change would be."""
-    return bool(own_line(m, mutant) or known_text(m, mutant) or gloss(mutant))
+    return bool(own_line(m, mutant) or known_text(m, mutant) or glosses(mutant))
 
 
 LONG = 80  # characters; a longer line is named by its number alone
@@ -144,9 +145,11 @@ def told(m: Any, mutant: Mutant) -> str:
     if text := known_text(m, mutant):
         return f"{what(mutant)}, as in {text}"
     says = f"{what(mutant)}{_or_transposed(mutant)}"
-    if step := gloss(mutant):
-        return f'{says} in the step "{step}"'
-    return says
+    if not (steps := glosses(mutant)):
+        return says
+    where = " and ".join(f'"{step}"' for step in steps)
+    each = "step" if len(steps) == 1 else "steps"
+    return f"{says.removesuffix(EVERYWHERE)} in the {each} {where}"
 
 
 def _or_transposed(mutant: Mutant) -> str:
@@ -166,7 +169,7 @@ def what(mutant: Mutant, line: Line | None = None) -> str:
     if isinstance(place, Block):
         return place.says
     says = _of_an_expression(mutant, place.node, new, line) or SAYS[mutant.kind]
-    return says + ", in every line of its kind" * (len(mutant.edits) > 1)
+    return says + EVERYWHERE * (len(mutant.edits) > 1)
 
 
 def _of_an_expression(
@@ -236,10 +239,11 @@ def _own_function(m: Any, mutant: Mutant) -> OwnFunction | None:
     return m.known[key]
 
 
-def gloss(mutant: Mutant) -> str:
-    """Return what the reference's line is, as its comment says; "" without one."""
-    place = mutant.edits[0][0]
-    return mutant.body.glosses.get(getattr(place.node, "lineno", 0), "")
+def glosses(mutant: Mutant) -> list[str]:
+    """Return what the reference's changed lines are; none if a comment is missing."""
+    lines = [getattr(place.node, "lineno", 0) for place, _ in mutant.edits]
+    steps = dict.fromkeys(mutant.body.glosses.get(line, "") for line in lines)
+    return list(steps) if all(steps) else []
 
 
 def known_text(m: Any, mutant: Mutant) -> str:

@@ -52,6 +52,12 @@ def _(theta, grad, m, v, k, rate):
       division: it is for the update only, and the next step would divide again
     eps-in-the-root: 1e-8 is added inside the square root. Add it to the root
     betas-swapped: the decay rates 0.9 and 0.999 are swapped
+    weights-swapped: the new gradient has the weight 0.9 and its square 0.999. These are
+      the weights of the old averages, so that a step depends on many gradients
+    weight-1: the new gradient and its square have the weight 1, as momentum is often
+      written. In Adam they have the weights 0.1 and 0.001, so that m and v are averages
+    times-for-power: the averages are divided by 1 - 0.9 k and 1 - 0.999 k. The decay
+      rates are raised to the power k
     old-averages: the update uses m and v as they were before this step. Update both
       first
     corrections-swapped: m is divided by 1 - 0.999^k and v by 1 - 0.9^k. Each average
@@ -68,12 +74,19 @@ def _(theta, grad, m, v, k, rate):
 
     ms = 0.999 * m + 0.001 * grad
     vs = 0.9 * v + 0.1 * grad**2
+    mw = 0.1 * m + 0.9 * grad
+    vw = 0.001 * v + 0.999 * grad**2
+    ma = 0.9 * m + grad
+    va = 0.999 * v + grad**2
     right = step(mean, square)
     return {
         "no-correction": (step(m1, v1), m1, v1),
         "corrected-kept": (right, mean, square),
         "eps-in-the-root": (theta - rate * mean / np.sqrt(square + 1e-8), m1, v1),
         "betas-swapped": (step(ms / c2, vs / c1), ms, vs),
+        "weights-swapped": (step(mw / c1, vw / c2), mw, vw),
+        "weight-1": (step(ma / c1, va / c2), ma, va),
+        "times-for-power": (step(m1 / (1 - 0.9 * k), v1 / (1 - 0.999 * k)), m1, v1),
         "old-averages": (step(m / c1, v / c2), m1, v1),
         "corrections-swapped": (step(m1 / c2, v1 / c1), m1, v1),
     }

@@ -23,6 +23,21 @@ def mean_first(z, scaler):
     return (z + scaler[0]) * scaler[1]
 
 
+@row.wrong
+def normalised_again(z, scaler):
+    """the mean is subtracted and the difference divided, as in `normalise`. Undo these
+    steps: multiply by the standard deviation, then add the mean"""
+    return (z - scaler[0]) / scaler[1]
+
+
+@row.wrong
+def own_statistics(z, scaler):
+    """the mean and the standard deviation are computed from z itself. Use those in the
+    scaler, with which `normalise` was called"""
+    spread = z.std(axis=0)
+    return z * np.where(spread == 0, 1, spread) + z.mean(axis=0)
+
+
 @row.right  # Column by column.
 def _(z, scaler):
     x = np.empty(z.shape)

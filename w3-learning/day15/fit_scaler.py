@@ -35,10 +35,19 @@ def _(x):
       column has its own unit and its own scale
     spread-for-all: one standard deviation is used for all columns. Each column has its
       own unit and its own scale
+    variance: the second row is the variance. Take its square root
+    deviation: the second row is the mean absolute deviation. Take the root of the mean
+      square of the deviations
     min-max: the smallest entry and the range are returned. Return the mean and the
       standard deviation, which depend less on a single row
     constant-0: a constant column has a standard deviation of 0, so `normalise` would
       divide by 0. Return 1 for such a column
+    about-0 2: the second row is the root mean square, the standard deviation about 0.
+      Subtract the mean first
+    one-for-all 2: one mean and one standard deviation are used for all columns. Each
+      column has its own unit and its own scale
+    spread-for-all 2: one standard deviation is used for all columns. Each column has
+      its own unit and its own scale
     """
     mean = x.mean(axis=0)
     std = x.std(axis=0)
@@ -46,6 +55,9 @@ def _(x):
 
     def safe(s):
         return np.where(s == 0, 1, s)
+
+    def kept(s):  # with 1 for a constant column all the same
+        return np.where(std == 0, 1, s)
 
     several = len(x) > 1
     return {
@@ -59,6 +71,11 @@ def _(x):
         "one-for-all": np.array([0 * mean + x.mean(), 0 * mean + safe(x.std())]),
         "spread-for-all": np.array([mean, 0 * one + safe(x.std())]),
         "min-max": np.array([x.min(axis=0), safe(np.ptp(x, axis=0))]),
+        "about-0 2": np.array([mean, kept(np.sqrt(np.mean(x**2, axis=0)))]),
+        "one-for-all 2": np.array([0 * mean + x.mean(), kept(x.std())]),
+        "spread-for-all 2": np.array([mean, kept(x.std())]),
+        "variance": np.array([mean, safe(std**2)]),
+        "deviation": np.array([mean, safe(np.mean(np.abs(x - mean), axis=0))]),
         "constant-0": np.array([mean, std]),
     }
 

@@ -11,7 +11,7 @@ row = Row(
     slips=(
         Slip(
             "^ValueError.*matmul",
-            r"d\w* ?@ ?W[23]\b(?!\.T)",
+            r"\b[dDgGe]\w* ?@ ?W[23]\b(?!\.(T|mT|transpose))",
             "not-transposed",
             "Your function stops because a weight matrix is not transposed. On the way "
             "back, a gradient (n, outputs) is multiplied by W^T, (outputs, inputs).",
@@ -70,6 +70,21 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
       The derivative of tanh is 1 - h^2
     slope-of-h: the derivative of tanh is computed as 1 - tanh(h)^2 from the layer's
       output h. The output is tanh already, so the derivative is 1 - h^2
+    slope-of-z: the derivative of tanh is computed as 1 - z^2 from the layer's value z
+      before tanh. It is 1 - h^2, where h is the layer's output
+    slope-not-passed-on: the gradient that goes back to the first layer lacks the
+      derivative of the second tanh. Multiply by 1 - h^2 before the next step back
+    tanh-at-the-end: the output has a tanh as well. The last layer of `mlp` is linear
+    tanh-at-the-end 2: the output has a tanh as well, and its derivative. The last layer
+      of `mlp` is linear
+    divided-twice: every gradient is divided by the number of rows once more. The loss
+      has the factor 1 / (n m) already, so sum over the rows
+    weights-mean: the gradients of the weights are means over the rows. The loss has the
+      factor 1 / (n m) already, so H^T D needs no division
+    slope-at-the-end: the gradient with respect to the output is multiplied by a
+      derivative of tanh. The last layer is linear, so its derivative is 1
+    transposed: the gradients of the weights are transposed. The gradient of W is H^T D,
+      in the shape of W
     bias-mean: the gradients of the biases are means over the rows. The loss has the
       factor 1 / (n m) already, so sum over the rows
     summed-loss: the gradient belongs to the sum of the squares. The loss is their mean,
@@ -86,8 +101,31 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
         "slope-of-h": lambda h: 1 - np.tanh(h) ** 2,
     }
     right = backwards(*given)
+    turned = tuple(one.T for one in right)
+
+    def at_the_end(e):
+        return 2 * e / e.size * (1 - (e + target) ** 2)
+
+    def tanh_too(e):
+        return 2 * (np.tanh(e + target) - target) / e.size
+
+    def tanh_and_slope(e):
+        return tanh_too(e) * (1 - np.tanh(e + target) ** 2)
+
+    first = np.tanh(x @ W1 + b1)
+    d3 = 2 * (np.tanh(first @ W2 + b2) @ W3 + b3 - target) / target.size
+    d1 = (d3 @ W3.T) @ W2.T * (1 - first**2)
+
     return {
         **{slug: backwards(*given, slope) for slug, slope in slopes.items()},
+        "slope-of-z": backwards(*given, lambda h: 1 - np.arctanh(h) ** 2),
+        "slope-not-passed-on": (x.T @ d1, d1.sum(axis=0), *right[2:]),
+        "tanh-at-the-end": backwards(*given, first=tanh_too),
+        "tanh-at-the-end 2": backwards(*given, first=tanh_and_slope),
+        "divided-twice": tuple(one / len(x) for one in right),
+        "weights-mean": tuple(one / len(x) if one.ndim > 1 else one for one in right),
+        "slope-at-the-end": backwards(*given, first=at_the_end),
+        "transposed": turned,
         "bias-mean": tuple(one / len(x) if one.ndim == 1 else one for one in right),
         "summed-loss": backwards(*given, first=lambda e: 2 * e),
         "rows-only": backwards(*given, first=lambda e: 2 * e / len(x)),

@@ -27,6 +27,10 @@ row.cases(
 def _(pred, target):
     """summed-over-columns: the squares are summed over the columns and averaged over
       the rows. Take the mean over all n m entries
+    summed-over-columns 2: the loss sums the squares over the columns and averages
+      them over the rows. Take the mean over all n m entries
+    absolute: the loss is the mean of the absolute errors. Take the mean of their
+      squares
     not-divided: the gradient is 2 (pred - target). The loss is a mean over n m entries,
       so divide the gradient by n m as well
     divided-by-rows: the gradient is divided by the number of rows. The loss is a mean
@@ -37,6 +41,8 @@ def _(pred, target):
     n = len(e)
     return {
         "summed-over-columns": (np.sum(e**2) / n, 2 * e / n),
+        "summed-over-columns 2": (np.sum(e**2) / n, 2 * e / e.size),
+        "absolute": (np.mean(np.abs(e)), 2 * e / e.size),
         "not-divided": (np.mean(e**2), 2 * e),
         "divided-by-rows": (np.mean(e**2), 2 * e / n),
         "half": (np.mean(e**2) / 2, e / e.size),

@@ -22,6 +22,13 @@ def _(known, asked):
       distance per asked row
     column-by-column: the nearest value is chosen in each column separately. The nearest
       row is one row
+    mean-distance: the result is the mean of the distances to all known rows. Return the
+      least of them
+    to-the-mean: the distance is that to the mean of the known rows. Return the distance
+      to the nearest of them
+    index: the index of the nearest row is returned. Return the distance to it
+    one-for-all: one distance is returned for all asked rows, the least of all. Each
+      asked row has a nearest row of its own
     city-block: the distance is the sum of the absolute differences. It should be
       Euclidean
     """
@@ -31,6 +38,10 @@ def _(known, asked):
         "squared": np.min(d**2, axis=0),
         "from-known": d.min(axis=1),
         "column-by-column": np.linalg.norm(np.abs(apart).min(axis=0), axis=1),
+        "mean-distance": d.mean(axis=0),
+        "to-the-mean": np.linalg.norm(asked - known.mean(axis=0), axis=1),
+        "index": d.argmin(axis=0),
+        "one-for-all": np.full(len(asked), d.min()),
         "city-block": np.abs(apart).sum(axis=2).min(axis=0),
     }
 

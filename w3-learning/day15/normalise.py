@@ -26,6 +26,20 @@ def own_statistics(x, scaler):
     return (x - x.mean(axis=0)) / np.where(spread == 0, 1, spread)
 
 
+@row.wrong
+def first_column(x, scaler):
+    """the mean and the standard deviation of the first column are used for all columns.
+    The rows of the scaler are scaler[0] and scaler[1]"""
+    return (x - scaler[0, 0]) / scaler[1, 0]
+
+
+@row.wrong(hidden="the lab's checks are on the rows of the training")
+def own_mean(x, scaler):
+    """the mean of x itself is subtracted. Use the mean in the scaler, which is from the
+    training rows: a robot normalises one row at a time"""
+    return (x - x.mean(axis=0)) / scaler[1]
+
+
 @row.right  # Column by column.
 def _(x, scaler):
     mean, std = scaler

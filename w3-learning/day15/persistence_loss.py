@@ -2,9 +2,20 @@
 
 import numpy as np
 
-from labkit.judge import Row, Scalar
+from labkit.judge import Row, Scalar, Slip
 
-row = Row(Scalar())
+row = Row(
+    Scalar(),
+    slips=(
+        Slip(
+            "^IndexError: boolean index",
+            r"np\.diff\(\s*action\s*\)",
+            "last-axis",
+            "Your function stops because np.diff(action) takes the differences of "
+            "adjacent columns. With axis=0 it takes those of adjacent rows.",
+        ),
+    ),
+)
 
 
 def several(rng, sizes, m, first=0):
@@ -29,7 +40,13 @@ row.cases(
 )
 
 
-@row.wrongs(hidden={"by-number": "each number of the lab occurs once"})
+@row.wrongs(
+    hidden={
+        "by-number": "each number of the lab occurs once",
+        "mean-of-means": "each episode of the lab has 60 rows",
+        "mean-of-means 2": "each episode of the lab has 60 rows",
+    }
+)
 def _(action, episode):
     """across-episodes: the change from the last row of an episode to the first row of
       the next one is included. The policy repeats no action of another episode: leave
@@ -40,18 +57,36 @@ def _(action, episode):
       out of the mean
     summed-over-columns: the squares are summed over the columns. Take the mean over the
       columns, as `mse` does
+    mean-of-means: the result is the mean of one mean per episode. Take one mean over
+      all pairs, so that each pair has the same weight
+    mean-of-means 2: the result is the mean of one mean per episode. Take one mean over
+      all pairs, so that each pair has the same weight
+    mean-action: the result is the loss of the mean action, which is the variance. Use
+      the action of the row before as the prediction
+    divided-by-all: the squares are divided by the number of all entries. An episode
+      with n rows has n - 1 pairs: take the mean over the pairs
+    across-columns: the difference is taken from one column to the next. A change is
+      from one row to the next, along axis 0
     by-number: all rows with the same number are joined, but the number comes again in a
       later episode. Only adjacent rows are pairs
     """
     change = action[1:] - action[:-1]
     same = episode[1:] == episode[:-1]
     last = np.vstack([0 * action[:1], action[:-1] * same[:, None]])
+    across = np.diff(action, axis=1)
+    ends = np.flatnonzero(~same) + 1
+    each = [np.diff(one, axis=0) for one in np.split(action, ends)]
     joined = [np.diff(action[episode == one], axis=0) for one in np.unique(episode)]
     return {
         "across-episodes": np.mean(change**2),
         "start-from-0": np.mean((action - last) ** 2),
         "counted-as-0": np.mean(change**2 * same[:, None]),
         "summed-over-columns": np.sum(change[same] ** 2) / same.sum(),
+        "mean-of-means": np.mean([np.mean(one**2) for one in each if len(one)]),
+        "mean-of-means 2": np.mean([np.mean(one**2) for one in joined if len(one)]),
+        "mean-action": np.mean((action - action.mean(axis=0)) ** 2),
+        "divided-by-all": np.sum(change[same] ** 2) / action.size,
+        "across-columns": np.mean(across**2) if across.size else np.nan,
         "by-number": np.mean(np.vstack(joined) ** 2),
     }
 

@@ -13,6 +13,7 @@ def _(rng):
     yield np.array([0, 0, 1, 1, 2, 2]), np.array([1])
     yield np.array([3, 3, 5]), np.array([9])  # an episode without rows
     yield np.array([7, 7, 7]), np.array([7])
+    yield np.array([1, 1, 2, 2, 2, 3, 5]), np.array([3, 1])  # 2 is between them
     for n, episodes, k in ((12, 4, 2), (20, 6, 1), (15, 3, 2), (30, 8, 4), (9, 9, 3)):
         yield rng.integers(0, episodes, n), rng.permutation(episodes)[:k]
 
@@ -22,17 +23,41 @@ def _(rng):
     yield np.array([57, 57, 58, 59, 59]), np.array([40, 59])
 
 
-@row.wrongs
+@row.wrongs(
+    hidden={
+        "sixty-rows": "each episode of the lab has 60 rows",
+        "as-a-range": "the lab holds out episodes 40 to 59",
+        "positions": "the lab counts its episodes from 0",
+    }
+)
 def _(episode, held_out):
     """rows-for-episodes: the numbers in held_out are used as indices of rows. They are
       numbers of episodes: hold out every row whose entry in episode is one of them
     as-many-rows: the last rows are held out, as many as held_out has entries. Rows of
       one episode are then in both parts
+    sixty-rows: the index of a row divided by 60 is used as its episode. Use the numbers
+      in episode, which also hold for episodes of other lengths
+    training-rows: the mask is True for the rows of the training. It is True for the
+      rows that are held out
+    swapped: the arguments of `np.isin` are swapped, so the result has one entry per
+      held-out episode. Return one entry per row
+    indices: the indices of the held-out rows are returned. Return a mask: True or False
+      for every row
+    as-a-range: all episodes from the least to the greatest number in held_out are held
+      out. Hold out those alone whose numbers are in held_out
+    positions: episodes are counted from 0 in ascending order, and held_out is compared
+      with this count. Compare it with the numbers in episode
     """
     rows = np.arange(len(episode))
     return {
         "rows-for-episodes": np.isin(rows, held_out),
         "as-many-rows": rows >= len(episode) - len(held_out),
+        "sixty-rows": np.isin(rows // 60, held_out),
+        "training-rows": ~np.isin(episode, held_out),
+        "swapped": np.isin(held_out, episode),
+        "indices": np.flatnonzero(np.isin(episode, held_out)),
+        "as-a-range": (episode >= held_out.min()) & (episode <= held_out.max()),
+        "positions": np.isin(np.unique(episode, return_inverse=True)[1], held_out),
     }
 
 

@@ -1,0 +1,75 @@
+"""Where a mistake is said to be: which result, which steps, which rows."""
+
+import inprocess
+import numpy as np
+import pytest
+from toyrows import row_of
+from toyrows import told as judged
+
+from labkit.judge import Scalar
+from labkit.lesson.day import find_day
+from labkit.lesson.starter import function_lines
+
+
+def told(task, name, student, body):
+    """Return what a file of Day 15 is told, one function of which is a student's."""
+    day = find_day(15)
+    text = day.source.read_text("utf-8")
+    lines = function_lines(text, name)[2]
+    head = "\n".join(lines[: next(i for i, x in enumerate(lines) if '"""' in x)])
+    own = f"{head}\n    " + body.replace("\n", "\n    ")
+    file = student(text.replace("\n".join(lines), own), day.source.name)
+    return inprocess.verdicts(day, file, task)[task]
+
+
+@pytest.mark.kit
+@pytest.mark.parametrize(
+    ("task", "name", "body", "slug", "says"),
+    [
+        (
+            "15.4",
+            "mlp",
+            "h = np.tanh(x @ W1) + b1\nh = np.tanh(h @ W2) + b2\nreturn h @ W3 + b3",
+            "slip-bracket",
+            "in the wrong place in the steps "
+            '"outputs of the first layer" and "outputs of the second layer".',
+        ),
+        (
+            "15.5",
+            "mse",
+            "e = pred - target\nreturn np.mean(e) ** 2, 2 * e / e.size",
+            "slip-bracket",
+            "`return (np.mean(e) ** 2, 2 * e / e.size)`, a bracket opens or closes",
+        ),
+        (
+            "15.3",
+            "normalise",
+            "return (x - scaler[1]) / scaler[0]",
+            "argument-shifted",
+            "shift",
+        ),
+    ],
+)
+def test_a_slip_is_told_with_its_place(student, task, name, body, slug, says):
+    verdict = told(task, name, student, body)
+    assert (verdict.status, verdict.mistake) == ("wrong", slug)
+    assert says in verdict.message
+
+
+def products(rng):
+    return [(rng.numbers(-2, 2, n, 3), rng.numbers(-2, 2, n, 2)) for n in (4, 5, 1, 3)]
+
+
+def test_one_result_that_a_mistake_only_nearly_gives_is_not_told_by_it():
+    kind = Scalar(called="the mean"), Scalar(called="the square")
+    row = row_of(kind, lambda x, d: (x.mean(), np.mean(d**2)), products)
+
+    @row.wrong
+    def summed(x, d):
+        """the numbers are summed up"""
+        return x.sum(), np.sum(d**2)
+
+    exact = judged(row, lambda x, d: (x.sum(), np.max(d) ** 3))
+    near = judged(row, lambda x, d: (1.001 * x.sum(), np.max(d) ** 3))
+    assert exact.mistake == "summed+other"
+    assert "summed" not in near.message
