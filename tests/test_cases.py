@@ -186,8 +186,8 @@ OF_THE_REVIEW = [
     (11, steep_only,
      "The result is right for velocities that are allowed and gradients of 0. It is "
      "wrong in some calls with "
-     "velocities that are too fast, at a positive distance; velocities that are too "
-     "fast, at a distance of 0 or less."),
+     "velocities that are too fast, at a positive distance; and velocities that are "
+     "too fast, at a distance of 0 or less."),
     (11, shallow, "points beyond three faces. It is wrong for points in the box."),
     (12, long_edges, "It is wrong in some calls with edges that "),
     (12, coarse, "It is wrong in some calls with edges that start"),

@@ -342,7 +342,7 @@ def rises(
 ) -> float:  # fmt: skip
     """Return the rise of the hand, m, in two seconds of gravity compensation alone.
 
-    It is negative if the hand sinks. The arguments are those of `floats`.
+    It is negative if the hand sinks. The arguments are the same as for `floats`.
     """
     run = floats(model, known, still, load)
     before, *_, end = (known.at(q).T_world_ee[2, 3] for q in run.q)

@@ -35,14 +35,15 @@ def _(phi, distance, R):
       angles only, where sin(phi) is almost phi. Integrate with sin(phi)
     one-step: your function adds distance sin(phi) / R once. The rate sin(phi) / R
       changes along the path, so integrate it
-    whole-angle: your function lets tan(phi) grow exponentially. It is tan(phi / 2) that
-      grows so, because d(phi)/ds = sin(phi) / R
-    linear-growth: tan(phi / 2) is increased by tan(phi / 2) distance / R once. Its
-      rate of change is proportional to its present value, so it grows exponentially
-    sine-grows: your function lets sin(phi) grow exponentially, which holds for small
-      angles only. It is tan(phi / 2) that grows so
-    sine-grows 2: your function lets sin(phi) grow exponentially, which holds for small
-      angles only. It is tan(phi / 2) that grows so
+    whole-angle: your function lets tan(phi) grow exponentially. It is tan(phi / 2)
+      that grows so, because d(phi)/ds = sin(phi) / R
+    linear-growth: in your code, tan(phi / 2) is increased by tan(phi / 2) distance
+      / R once. Its rate of change is proportional to its present value, so it grows
+      exponentially
+    sine-grows: your function lets sin(phi) grow exponentially, which holds for
+      small angles only. It is tan(phi / 2) that grows so
+    sine-grows 2: your function lets sin(phi) grow exponentially, which holds for
+      small angles only. It is tan(phi / 2) that grows so
     """
     grown = np.sin(phi) * np.exp(distance / R)
     return {

@@ -18,22 +18,23 @@ def _(rng):
 
 @row.wrong
 def mean_first(z, scaler):
-    """the mean is added before the multiplication, so it is scaled as well. Undo the
-    steps of `normalise` in the opposite order: multiply, then add"""
+    """in your code, the mean is added before the multiplication, so it is scaled as
+    well. Undo the steps of `normalise` in the opposite order: multiply, then add"""
     return (z + scaler[0]) * scaler[1]
 
 
 @row.wrong
 def normalised_again(z, scaler):
-    """the mean is subtracted and the difference divided, as in `normalise`. Undo these
-    steps: multiply by the standard deviation, then add the mean"""
+    """in your code, the mean is subtracted and the difference divided, as in
+    `normalise`. Undo these steps: multiply by the standard deviation, then add the
+    mean"""
     return (z - scaler[0]) / scaler[1]
 
 
 @row.wrong
 def own_statistics(z, scaler):
-    """the mean and the standard deviation are computed from z itself. Use those in the
-    scaler, with which `normalise` was called"""
+    """in your code, the mean and the standard deviation are computed from z itself.
+    Use those in the scaler, with which `normalise` was called"""
     spread = z.std(axis=0)
     return z * np.where(spread == 0, 1, spread) + z.mean(axis=0)
 

@@ -42,10 +42,11 @@ def _(rng):
 
 @row.wrongs
 def _(x, W1, b1, W2, b2, W3, b3):
-    """tanh-at-the-end: the output layer has a tanh as well. It is linear, so that an
-      action can be any number
-    relu: the layers use max(0, .) instead of tanh
-    logistic: the layers use the logistic function 1 / (1 + exp(-.)) instead of tanh
+    """tanh-at-the-end: your output layer has a tanh as well. It is linear, so that
+      an action can be any number
+    relu: in your code, the layers use max(0, .) instead of tanh
+    logistic: in your code, the layers use the logistic function 1 / (1 + exp(-.))
+      instead of tanh
     """
 
     def by(f):

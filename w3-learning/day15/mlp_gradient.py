@@ -62,35 +62,39 @@ def backwards(
 
 @row.wrongs
 def _(x, target, W1, b1, W2, b2, W3, b3):
-    """slope-forgotten: the derivative of tanh is missing. Each layer's gradient is
-      multiplied by 1 - h^2, where h is the layer's output
-    slope-squared: the derivative of tanh is squared. Multiply by 1 - h^2 once per layer
-    slope-1-minus-h: the derivative of tanh is computed as 1 - h. It is 1 - h^2
-    slope-logistic: the derivative is h (1 - h), which belongs to the logistic function.
-      The derivative of tanh is 1 - h^2
-    slope-of-h: the derivative of tanh is computed as 1 - tanh(h)^2 from the layer's
-      output h. The output is tanh already, so the derivative is 1 - h^2
-    slope-of-z: the derivative of tanh is computed as 1 - z^2 from the layer's value z
-      before tanh. It is 1 - h^2, where h is the layer's output
-    slope-not-passed-on: the gradient that goes back to the first layer lacks the
+    """slope-forgotten: in your code, the derivative of tanh is missing. Each
+      layer's gradient is multiplied by 1 - h^2, where h is the layer's output
+    slope-squared: in your code, the derivative of tanh is squared. Multiply by 1 -
+      h^2 once per layer
+    slope-1-minus-h: in your code, the derivative of tanh is computed as 1 - h. It
+      is 1 - h^2
+    slope-logistic: in your code, the derivative is h (1 - h), which belongs to the
+      logistic function. The derivative of tanh is 1 - h^2
+    slope-of-h: in your code, the derivative of tanh is computed as 1 - tanh(h)^2
+      from the layer's output h. The output is tanh already, so the derivative is 1
+      - h^2
+    slope-of-z: in your code, the derivative of tanh is computed as 1 - z^2 from the
+      layer's value z before tanh. It is 1 - h^2, where h is the layer's output
+    slope-not-passed-on: your gradient that goes back to the first layer lacks the
       derivative of the second tanh. Multiply by 1 - h^2 before the next step back
-    tanh-at-the-end: the output has a tanh as well. The last layer of `mlp` is linear
-    tanh-at-the-end 2: the output has a tanh as well, and its derivative. The last layer
-      of `mlp` is linear
-    divided-twice: every gradient is divided by the number of rows once more. The loss
-      has the factor 1 / (n m) already, so sum over the rows
-    weights-mean: the gradients of the weights are means over the rows. The loss has the
-      factor 1 / (n m) already, so H^T D needs no division
-    slope-at-the-end: the gradient with respect to the output is multiplied by a
+    tanh-at-the-end: your output has a tanh as well. The last layer of `mlp` is
+      linear
+    tanh-at-the-end 2: your output has a tanh as well, and its derivative. The last
+      layer of `mlp` is linear
+    divided-twice: in your code, every gradient is divided by the number of rows
+      a second time. The loss has the factor 1 / (n m) already, so sum over the rows
+    weights-mean: your gradients of the weights are means over the rows. The loss
+      has the factor 1 / (n m) already, so H^T D needs no division
+    slope-at-the-end: your gradient with respect to the output is multiplied by a
       derivative of tanh. The last layer is linear, so its derivative is 1
-    transposed: the gradients of the weights are transposed. The gradient of W is H^T D,
-      in the shape of W
-    bias-mean: the gradients of the biases are means over the rows. The loss has the
-      factor 1 / (n m) already, so sum over the rows
-    summed-loss: the gradient belongs to the sum of the squares. The loss is their mean,
-      so divide by n m
-    rows-only: the gradient is divided by the number of rows. The loss is a mean over
-      rows and columns, so divide by n m
+    transposed: your gradients of the weights are transposed. The gradient of W is
+      H^T D, in the shape of W
+    bias-mean: your gradients of the biases are means over the rows. The loss has
+      the factor 1 / (n m) already, so sum over the rows
+    summed-loss: your gradient belongs to the sum of the squares. The loss is their
+      mean, so divide by n m
+    rows-only: your gradient is divided by the number of rows. The loss is a mean
+      over rows and columns, so divide by n m
     """
     given = x, target, (W1, b1, W2, b2, W3, b3)
     slopes = {

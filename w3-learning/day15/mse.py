@@ -25,17 +25,18 @@ row.cases(
 
 @row.wrongs
 def _(pred, target):
-    """summed-over-columns: the squares are summed over the columns and averaged over
-      the rows. Take the mean over all n m entries
-    summed-over-columns 2: the loss sums the squares over the columns and averages
+    """summed-over-columns: in your code, the squares are summed over the columns
+      and averaged over the rows. Take the mean over all n m entries
+    summed-over-columns 2: your loss sums the squares over the columns and averages
       them over the rows. Take the mean over all n m entries
-    absolute: the loss is the mean of the absolute errors. Take the mean of their
+    absolute: your loss is the mean of the absolute errors. Take the mean of their
       squares
-    not-divided: the gradient is 2 (pred - target). The loss is a mean over n m entries,
-      so divide the gradient by n m as well
-    divided-by-rows: the gradient is divided by the number of rows. The loss is a mean
-      over rows and columns, so divide by n m
-    half: the loss and its gradient are half as large, as for the convention error^2 / 2
+    not-divided: your gradient is 2 (pred - target). The loss is a mean over n m
+      entries, so divide the gradient by n m as well
+    divided-by-rows: your gradient is divided by the number of rows. The loss is a
+      mean over rows and columns, so divide by n m
+    half: your loss and its gradient are half as large, as for the convention
+      error^2 / 2
     """
     e = pred - target
     n = len(e)

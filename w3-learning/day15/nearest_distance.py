@@ -17,19 +17,19 @@ def _(rng):
 
 @row.wrongs
 def _(known, asked):
-    """squared: the result is the squared distance. Take the root
-    from-known: the distance is from each known row to the nearest asked row. Return one
-      distance per asked row
-    column-by-column: the nearest value is chosen in each column separately. The nearest
-      row is one row
-    mean-distance: the result is the mean of the distances to all known rows. Return the
-      least of them
-    to-the-mean: the distance is that to the mean of the known rows. Return the distance
-      to the nearest of them
-    index: the index of the nearest row is returned. Return the distance to it
-    one-for-all: one distance is returned for all asked rows, the least of all. Each
-      asked row has a nearest row of its own
-    city-block: the distance is the sum of the absolute differences. It should be
+    """squared: your result is the squared distance. Take the root
+    from-known: your distance is from each known row to the nearest asked row.
+      Return one distance per asked row
+    column-by-column: in your code, the nearest value is chosen in each column
+      separately. The nearest row is one row
+    mean-distance: your result is the mean of the distances to all known rows.
+      Return the smallest of them
+    to-the-mean: your distance is that to the mean of the known rows. Return the
+      distance to the nearest of them
+    index: your index of the nearest row is returned. Return the distance to it
+    one-for-all: in your code, one distance is returned for all asked rows, the
+      smallest of all. Each asked row has a nearest row of its own
+    city-block: your distance is the sum of the absolute differences. It should be
       Euclidean
     """
     apart = known[:, None] - asked

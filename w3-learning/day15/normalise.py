@@ -20,23 +20,24 @@ row.inputs(draw)
 
 @row.wrong
 def own_statistics(x, scaler):
-    """the mean and the standard deviation are computed from x itself. Use those in the
-    scaler, which are from the training rows: a robot normalises one row at a time"""
+    """in your code, the mean and the standard deviation are computed from x itself.
+    Use those in the scaler, which are from the training rows: a robot normalises one
+    row at a time"""
     spread = x.std(axis=0)
     return (x - x.mean(axis=0)) / np.where(spread == 0, 1, spread)
 
 
 @row.wrong
 def first_column(x, scaler):
-    """the mean and the standard deviation of the first column are used for all columns.
-    The rows of the scaler are scaler[0] and scaler[1]"""
+    """in your code, the mean and the standard deviation of the first column are used
+    for all columns. The rows of the scaler are scaler[0] and scaler[1]"""
     return (x - scaler[0, 0]) / scaler[1, 0]
 
 
 @row.wrong(hidden="the lab's checks are on the rows of the training")
 def own_mean(x, scaler):
-    """the mean of x itself is subtracted. Use the mean in the scaler, which is from the
-    training rows: a robot normalises one row at a time"""
+    """in your code, the mean of x itself is subtracted. Use the mean in the scaler,
+    which is from the training rows: a robot normalises one row at a time"""
     return (x - x.mean(axis=0)) / scaler[1]
 
 

@@ -48,27 +48,27 @@ row.cases(
     }
 )
 def _(action, episode):
-    """across-episodes: the change from the last row of an episode to the first row of
-      the next one is included. The policy repeats no action of another episode: leave
-      these pairs out
-    start-from-0: the first row of each episode is included, with a last action of 0.
-      This row has no last action: leave it out
-    counted-as-0: the pairs across two episodes are counted as changes of 0. Leave them
-      out of the mean
-    summed-over-columns: the squares are summed over the columns. Take the mean over the
-      columns, as `mse` does
-    mean-of-means: the result is the mean of one mean per episode. Take one mean over
-      all pairs, so that each pair has the same weight
-    mean-of-means 2: the result is the mean of one mean per episode. Take one mean over
-      all pairs, so that each pair has the same weight
-    mean-action: the result is the loss of the mean action, which is the variance. Use
-      the action of the row before as the prediction
-    divided-by-all: the squares are divided by the number of all entries. An episode
-      with n rows has n - 1 pairs: take the mean over the pairs
-    across-columns: the difference is taken from one column to the next. A change is
-      from one row to the next, along axis 0
-    by-number: all rows with the same number are joined, but the number comes again in a
-      later episode. Only adjacent rows are pairs
+    """across-episodes: in your code, the change from the last row of an episode to
+      the first row of the next one is included. The policy repeats no action of
+      another episode: leave these pairs out
+    start-from-0: your first row of each episode is included, with a last action of
+      0. This row has no last action: leave it out
+    counted-as-0: your pairs across two episodes are counted as changes of 0. Leave
+      them out of the mean
+    summed-over-columns: in your code, the squares are summed over the columns. Take
+      the mean over the columns, as `mse` does
+    mean-of-means: your result is the mean of one mean per episode. Take one mean
+      over all pairs, so that each pair has the same weight
+    mean-of-means 2: your result is the mean of one mean per episode. Take one mean
+      over all pairs, so that each pair has the same weight
+    mean-action: your result is the loss of the mean action, which is the variance.
+      Use the action of the row before as the prediction
+    divided-by-all: in your code, the squares are divided by the number of all
+      entries. An episode with n rows has n - 1 pairs: take the mean over the pairs
+    across-columns: your difference is taken from one column to the next. A change
+      is from one row to the next, along axis 0
+    by-number: in your code, all rows with the same number are joined, but the
+      number comes again in a later episode. Only adjacent rows are pairs
     """
     change = action[1:] - action[:-1]
     same = episode[1:] == episode[:-1]

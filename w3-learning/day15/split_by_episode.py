@@ -31,22 +31,23 @@ def _(rng):
     }
 )
 def _(episode, held_out):
-    """rows-for-episodes: the numbers in held_out are used as indices of rows. They are
-      numbers of episodes: hold out every row whose entry in episode is one of them
-    as-many-rows: the last rows are held out, as many as held_out has entries. Rows of
-      one episode are then in both parts
-    sixty-rows: the index of a row divided by 60 is used as its episode. Use the numbers
-      in episode, which also hold for episodes of other lengths
-    training-rows: the mask is True for the rows of the training. It is True for the
-      rows that are held out
-    swapped: the arguments of `np.isin` are swapped, so the result has one entry per
-      held-out episode. Return one entry per row
-    indices: the indices of the held-out rows are returned. Return a mask: True or False
-      for every row
-    as-a-range: all episodes from the least to the greatest number in held_out are held
-      out. Hold out those alone whose numbers are in held_out
-    positions: episodes are counted from 0 in ascending order, and held_out is compared
-      with this count. Compare it with the numbers in episode
+    """rows-for-episodes: your numbers in held_out are used as indices of rows. They
+      are numbers of episodes: hold out every row whose entry in episode is one of
+      them
+    as-many-rows: in your code, the last rows are held out, as many as held_out has
+      entries. Rows of one episode are then in both parts
+    sixty-rows: your index of a row divided by 60 is used as its episode. Use the
+      numbers in episode, which also hold for episodes of other lengths
+    training-rows: your mask is True for the rows of the training. It is True for
+      the rows that are held out
+    swapped: in your code, the arguments of `np.isin` are swapped, so the result has
+      one entry per held-out episode. Return one entry per row
+    indices: in your code, the indices of the held-out rows are returned. Return a
+      mask: True or False for every row
+    as-a-range: in your code, all episodes from the smallest to the largest number in
+      held_out are held out. Hold out those alone whose numbers are in held_out
+    positions: in your code, episodes are counted from 0 in ascending order, and
+      held_out is compared with this count. Compare it with the numbers in episode
     """
     rows = np.arange(len(episode))
     return {

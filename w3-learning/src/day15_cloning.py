@@ -210,7 +210,7 @@ def persistence_loss(action: np.ndarray, episode: np.ndarray) -> float:
 
 
 def nearest_distance(known: np.ndarray, asked: np.ndarray) -> np.ndarray:
-    """Return the distance from each row of asked to the nearest row of known, (m,).
+    """Return the distance (m,) from each row of asked to the nearest row of known.
 
     The rows are known (n, d) and asked (m, d); distances are Euclidean.
     nearest_distance([[0, 0], [3, 4]], [[0, 1]]) -> [1]
