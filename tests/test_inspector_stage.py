@@ -16,7 +16,7 @@ from conftest import ROOT, paper
 from labkit.inspector.canvas import Canvas
 from labkit.inspector.draw import Sketch
 from labkit.inspector.scene import FOV, narrow
-from labkit.inspector.shapes import LARGER, Shape, larger
+from labkit.inspector.shapes import LARGER, PACKED, Shape, larger
 from robo47 import panda
 
 pytestmark = pytest.mark.kit
@@ -84,16 +84,15 @@ def test_without_an_answer_nothing_of_the_students_stays():
 
 
 def test_a_ghost_is_larger_than_the_arm_and_a_second_one_than_the_first():
-    np.testing.assert_allclose(
-        larger(BOX, 0.1).vertices - BOX.vertices, [[0, 0, 0.1]] * 3
-    )
+    by = larger(BOX, 0.1).vertices - BOX.vertices
+    np.testing.assert_allclose(by, [[0, 0, 0.1]] * 3, atol=1 / PACKED)
     log = []
     sketch = Sketch(SimpleNamespace(scene=Paper(log, "scene")), [BOX])
     sketch.ghost("blue")
     sketch.ghost("red")
     made = [given[0][1] for name, given in log if name == "scene.add_mesh_simple"]
     heights = [float(vertices[0, 2]) for vertices in made]
-    np.testing.assert_allclose(heights, [LARGER, 2 * LARGER], rtol=1e-6)
+    np.testing.assert_allclose(heights, [LARGER, 2 * LARGER], atol=1 / PACKED)
 
 
 def test_a_phone_sees_the_same_in_the_upper_half():
