@@ -16,6 +16,16 @@ pytestmark = pytest.mark.kit
 # What a day asks again, in other words, of what a day before has taught.
 ALLOWED: set[tuple[str, str]] = set()
 PROBES = 4  # questions that show most functions to be another one
+MEMORY = 4_000_000_000  # bytes; a loop over a tree makes an endless list of other input
+
+
+@pytest.fixture(autouse=True)
+def _limited_memory():
+    resource = pytest.importorskip("resource", reason="limits of memory are POSIX's")
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, before[1]))
+    yield
+    resource.setrlimit(resource.RLIMIT_AS, before)
 
 
 def importable(day):
