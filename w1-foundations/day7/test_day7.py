@@ -91,7 +91,7 @@ def test_step_1s_two_mistakes():
     swapped = np.polynomial.Polynomial([0, 0, 0, 6, -15, 10])
     assert (swapped(1.0), swapped.deriv()(1.0)) == (1.0, 8.0)
     assert says("6 and 10, s still ends at 1, but with the velocity $8 / T$")
-    assert says("sd is 1.3230 instead of 0.6615. Without the clamp s is 1.2207")
+    assert says("is 1.3230 instead of 0.6615. Without the clamp s is 1.2207")
     assert says("by 22 % of the distance")
 
 
