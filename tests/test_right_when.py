@@ -106,6 +106,25 @@ def test_an_argument_that_is_not_used_is_named():
     assert says == "If a is doubled, your result stays the same, but it should change."
 
 
+@pytest.mark.parametrize(("of_a", "says"), [(1.0, True), (5.0, False)])
+@pytest.mark.parametrize("factor", [1.0, 4.0])
+def test_how_an_answer_grows_is_also_tried_at_fresh_calls(of_a, says, factor):
+    def mine(m, a):
+        near = a != 5.0  # a case that is drawn seldom
+        return (1.0 + a if near else m) if factor == 1 else (m * m * a if near else m)
+
+    def right(m, a):
+        return m * a
+
+    def of(function):
+        return lambda some: [function(*call) for call in some]
+
+    fresh = [(m, of_a) for m, _ in PUSHES]
+    both = of(mine), of(right)
+    tried = Experiments(PUSHES, ["m", "a"], *both, 1e-5, drawn=lambda: fresh)
+    assert ("If m is doubled" in tried.doubled()) == says
+
+
 def test_an_answer_that_grows_as_the_right_one_says_nothing():
     assert (
         told_of_doubling(lambda m, a: 3 * m * a, lambda m, a: m * a, PUSHES, ["m", "a"])

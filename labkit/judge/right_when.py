@@ -211,15 +211,51 @@ class Experiments:
                 continue
             name = f"{self.names[k]}{_sized(self.calls[0][k])}"
             if np.isclose(grew, 1.0, rtol=self.near):
+                if not self._grows_fresh(k, grew):
+                    continue
                 says = f"If {name} is doubled, your result stays the same"
                 return f"{says}, but it should change."
-            if its is not None:
+            if its is not None and self._grows_fresh(k, grew, its):
                 return (
                     f"If {name} is doubled, your result becomes {say_factor(grew)} "
                     f"times as large, but it should become {say_factor(its)} times as "
                     "large."
                 )
         return ""
+
+    def _grows_fresh(self, k: int, grew: float, its: float | None = None) -> bool:
+        """Return whether the fresh answers grow by these factors, too.
+
+        Args:
+            k: which argument is doubled.
+            grew: the factor of the student's answers.
+            its: that of the right ones; None where they need not have one.
+        """
+        first = self.calls[0][k]
+        some = [
+            call
+            for call in self.drawn()
+            if isinstance(call[k], float | np.ndarray)
+            and _may_be_doubled(call[k])
+            and _sized(call[k]) == _sized(first)
+        ]
+        twice = _with(some, k, [2.0 * call[k] for call in some])
+        if not self._all_grew(*self._each([some, twice]), grew):
+            return False
+        return its is None or self._all_grew(self.truth(some), self.truth(twice), its)
+
+    def _all_grew(
+        self, before: Iterable[Any], after: Iterable[Any], factor: float
+    ) -> bool:
+        """Return whether each answer grew by a factor, those that were 0 included."""
+        pairs = [(flat(b), flat(a)) for b, a in zip(before, after, strict=True)]
+        return all(
+            b.shape == a.shape
+            and np.abs(a - factor * b).max(initial=0.0)
+            <= 1e-3 * max(1.0, float(np.abs(a).max(initial=0.0)))
+            for b, a in pairs
+            if b is not None and a is not None
+        )
 
     def _refuted(self, claim: Claim) -> bool:
         """Return whether a call that was answered wrongly satisfies a claim."""
