@@ -35,6 +35,7 @@ OTHERS = 12  # of them are asked
 LISTED = 1 / 3  # the share of calls that have a list so, where that is worth saying
 Call = tuple[Any, ...]  # its arguments
 # From calls to the answers of a function, None where there is none, which says nothing.
+AGREES = 1e-3  # by which part of itself an answer may miss a factor
 Answers = Callable[[Sequence[Call]], Iterable[Any]]
 
 
@@ -240,22 +241,10 @@ class Experiments:
             and _sized(call[k]) == _sized(first)
         ]
         twice = _with(some, k, [2.0 * call[k] for call in some])
-        if not self._all_grew(*self._each([some, twice]), grew):
+        before, after = self._each([some, twice])
+        if not _all_grew(before, after, grew):
             return False
-        return its is None or self._all_grew(self.truth(some), self.truth(twice), its)
-
-    def _all_grew(
-        self, before: Iterable[Any], after: Iterable[Any], factor: float
-    ) -> bool:
-        """Return whether each answer grew by a factor, those that were 0 included."""
-        pairs = [(flat(b), flat(a)) for b, a in zip(before, after, strict=True)]
-        return all(
-            b.shape == a.shape
-            and np.abs(a - factor * b).max(initial=0.0)
-            <= 1e-3 * max(1.0, float(np.abs(a).max(initial=0.0)))
-            for b, a in pairs
-            if b is not None and a is not None
-        )
+        return its is None or _all_grew(self.truth(some), self.truth(twice), its)
 
     def _refuted(self, claim: Claim) -> bool:
         """Return whether a call that was answered wrongly satisfies a claim."""
@@ -458,6 +447,18 @@ class Experiments:
         factor = float(one @ two / (one @ one))
         off = np.abs(two - factor * one).max()
         return factor if off <= self.near * max(1.0, float(np.abs(two).max())) else None
+
+
+def _all_grew(before: Iterable[Any], after: Iterable[Any], factor: float) -> bool:
+    """Return whether each answer grew by a factor, those that were 0 included."""
+    pairs = [(flat(b), flat(a)) for b, a in zip(before, after, strict=True)]
+    return all(
+        b.shape == a.shape
+        and np.abs(a - factor * b).max(initial=0.0)
+        <= AGREES * max(1.0, float(np.abs(a).max(initial=0.0)))
+        for b, a in pairs
+        if b is not None and a is not None
+    )
 
 
 def _of_argument(k: int, holds: Callable[[Any], bool], call: Call) -> bool:

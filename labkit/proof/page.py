@@ -341,10 +341,12 @@ def _commit(proof: Proof) -> str:
     which = "The last commit" if proof.own else "What ran is of commit"
     words = [f"<p>{which}: <code>{escape(proof.commit)}</code>.</p>"]
     left = [
-        f"Day {one.day.number}: {one.left}" for one in _begun(proof.days) if one.left
+        f"Day {one.day.number}: {one.left.rstrip('.')}"
+        for one in _begun(proof.days)
+        if one.left
     ]
     if left:
-        words.append(f"<p>It lacks: {escape('; '.join(left))}</p>")
+        words.append(f"<p>{escape('; '.join(left))}.</p>")
     else:
         words.append(
             "<p>It holds all files of the days that were begun, as they ran here.</p>"
