@@ -14,7 +14,7 @@ ROBO47_DAY=3 have days tested wholly always.
 
 In the same way a line "machine 14: ..." says that `.ci/run` has passed, on a clean
 checkout, with the machine and Days 1 to 14 as they are. Until one of them changes, CI
-runs the tests that loop over all days, and a fifth of the other files of the authors'.
+runs the authors' tests that loop over all days, and a fifth of the other files.
 """
 
 import os

@@ -39,8 +39,8 @@ WIDTH, LEFT, RIGHT = 720, 76, 712
 PITCH = 11  # pixels, from one bar to the next
 GAP = 9  # pixels, between two days
 DECADES = 4.0  # to the right of the limit, at least
-MOST = 16.0  # decades that are drawn; a number of 0 has as many
-# Names of what no known mistake explains.
+MOST = 16.0  # the most decades that are drawn, as many as for a number of 0
+# The colour and the mark of how a mistake stands now.
 _MOODS = {"left behind": ("pass", "✓"), "still there": ("fail", "✗")}
 ROLES = {"passed": "pass", "wrong": "fail", "close": "fail"}
 
@@ -64,8 +64,7 @@ def days_table(days: Sequence[OwnDay], journal: Sequence[Entry]) -> str:
     head = "<th>day</th><th>tasks</th><th>attempts, oldest first</th><th>hints</th>"
     about = (
         '<p class="muted">A square is a task, green if it passes in your file as it is'
-        " now. A dot is a verdict of <code>make check</code> that differs from the"
-        " task's last one.</p>"
+        " now. A dot is a new verdict of <code>make check</code> on a task.</p>"
     )
     return html.section("The days", about, html.table(head, rows)) if rows else ""
 

@@ -101,8 +101,9 @@ def _margins(series: Sequence[Series]) -> str:
         overview.Bar(one, one.latest, one.status) for one in series
     )
     about = (
-        '<p class="muted">Each bar is a number. It begins at the limit and goes to the'
-        " right by the factor by which your last run is inside it.</p>"
+        '<p class="muted">Each bar is a number of your last run. It starts at the'
+        " limit, and its length is the factor between the two, on a logarithmic scale."
+        " A bar to the left is beyond its limit.</p>"
     )
     return drawn and html.section("Margins", about, drawn)
 
