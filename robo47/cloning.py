@@ -1,4 +1,4 @@
-"""Behaviour cloning: a small neural network, its gradient, Adam, and honest data.
+"""Behaviour cloning: a small neural network, its gradient, Adam, and held-out data.
 
 A policy is learned by regression from demonstrations. Rows of data are (observation,
 action) pairs, and `episode` holds the number of the episode of each row. Conventions:

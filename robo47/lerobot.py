@@ -4,9 +4,11 @@
     lerobot.write("push", seen, action, episode, fps=10, task="bring the puck home")
     seen, action, episode = lerobot.read("push")
 
-LeRobot then reads the folder: `LeRobotDataset("me/push", root="push")`. Numbers are
-kept as float32, as LeRobot's policies expect them. Only vectors are written, no images.
-An extra: `python3 scripts/setup_env.py lerobot` installs pyarrow.
+In LeRobot, `LeRobotDataset("me/push", root="push")` opens such a folder. The tests
+compare the files with the documented format; the package `lerobot` itself, which needs
+PyTorch, is not part of them. Numbers are kept as float32, as LeRobot's policies expect
+them. Only vectors are written, no images. An extra: `python3 scripts/setup_env.py
+lerobot` installs pyarrow.
 """
 
 import json
