@@ -48,10 +48,10 @@ def asked(rng, free, far, n=6):
         i, _, open_ = extend(tree, sample, step, world)
         if open_ is not free or not segment_free_of_discs(tree[i], tree[i], world):
             continue
-        # Where a step ends in the open and the sample is hit, and the other way round.
+        # An edge that is free is mostly one beyond which a disc hides the sample.
         if (
-            not far
-            or segment_free_of_discs(tree[i], sample, world) is not open_
+            not (far and free)
+            or not segment_free_of_discs(tree[i], sample, world)
             or rng.uniform(0, 1) < 0.03
         ) and definite(tree, sample, step, world):
             return tree, sample, step, world
