@@ -54,8 +54,9 @@ def exp_of(xi):
 
 @row.wrongs
 def _(T, xi):
-    """on-the-right: your exponential multiplies T on the right, as for a twist in the
-      moved frame. The twist xi is expressed in the frame in which T is given
+    """on-the-right: your code computes T exp([xi]), as for a twist in the moving frame.
+      The twist xi is expressed in the frame in which T is given, so the exponential
+      belongs on the left
     apart: your code rotates R and adds v to t, but a rotation about the origin moves t
       as well
     first-order: your result is T + [xi] T, which is not a rigid transform. Use the
@@ -68,7 +69,7 @@ def _(T, xi):
       of omega
     slides-left-out: if omega is 0, your code returns T unchanged. The motion is then a
       translation by v
-    identity-where-still: your code returns the identity for xi = 0. Return T
+    identity-where-still: your code returns the identity matrix for xi = 0. Return T
     turns-only: your code does not use v, the linear part of xi
     slides-only: your code does not use omega, the angular part of xi
     """

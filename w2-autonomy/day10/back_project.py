@@ -96,7 +96,8 @@ for slug, says, other in (
     ("depth-only-in-z", "your code multiplies only z by the depth, but x and y are "
                         "proportional to the depth as well",
      {"scaled": lambda ray, d: np.hstack([ray[:, :2], d])}),
-    ("depth-added", "your code adds the depth to z. Multiply the whole ray by it",
+    ("depth-added", "your code adds the depth to z. Multiply the whole ray by the "
+                    "depth",
      {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
     ("depth-in-the-pixel", "your code replaces the 1 in (u, v, 1) by the depth. "
                            "Multiply K^-1 (u, v, 1) by the depth",

@@ -80,8 +80,8 @@ for slug, says, other in (
                     {"times": lambda K, p: upright(K, p, f=0.0)}),
     ("y-up", "your code negates y, but both y and v point down",
      {"times": lambda K, p: p * [1, -1, 1] @ K.T}),
-    ("view-along-minus-z", "your code divides the point by -z, but the camera frame of "
-                           "this task has +z forward, unlike MuJoCo's",
+    ("view-along-minus-z", "your code divides the point by -z, as for MuJoCo's camera "
+                           "frame. In this task z points forward, so divide by z",
      {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
     ("mujoco-axes", "your code negates y and z, as for MuJoCo's camera frame. "
                     "T_cam_world already maps to a frame with y down and z forward",
@@ -100,8 +100,7 @@ for slug, says, other in (
                                 "Divide it by its last entry, the depth",
      {"divided": lambda h, p: h[:, :2] / length(h)}),
     ("homogeneous-by-mistake", "your code divides the homogeneous pixel by the depth "
-                               "twice, but its last entry is the depth, so one "
-                               "division is enough",
+                               "twice. One division is enough",
      {"divided": lambda h, p: h[:, :2] / h[:, 2:] ** 2}),
     ("middle-of-a-pixel", "your code subtracts half a pixel, but (0, 0) is the corner "
                           "of the image, not the centre of the first pixel as in "
