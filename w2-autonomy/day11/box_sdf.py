@@ -83,8 +83,9 @@ def _(p, half_extents):
       face distances, but only the nearest face matters
     farthest-face-inside: inside the box, your code uses the distance to the farthest
       face. Use the nearest face, which has the largest entry of |p| - half_extents
-    farthest-face-inside 2: your inside term uses the farthest face. Use the nearest
-      face, which has the largest entry of |p| - half_extents
+    farthest-face-inside 2: your term min(..., 0) uses the smallest entry of |p| -
+      half_extents, which belongs to the farthest face. Use the largest entry, which
+      belongs to the nearest face
     to-the-middle-inside: inside the box, your code returns minus the distance to the
       centre. Use the distance to the nearest face
     to-the-middle: your code returns the distance to the centre, so the size of the box
@@ -114,8 +115,8 @@ def _(p, half_extents):
     in-the-plane: your code does not use z. Use all three coordinates
     smallest-added: your code adds the smallest entry of |p| - half_extents, even where
       it is positive. Add the largest entry, and only where it is negative
-    first-axis-added: your inside term uses only the x entry of |p| - half_extents. Use
-      the largest of the three entries
+    first-axis-added: your term min(..., 0) uses only the x entry of |p| - half_extents.
+      Use the largest of the three entries
     largest-with-max: your code uses max(..., 0) instead of min(..., 0), so it adds the
       largest entry outside the box, and the result inside is 0
     sum-inside: inside the box, your code adds the three face distances, but only the
@@ -143,13 +144,13 @@ def _(p, half_extents):
     first-two-only: if the point lies beyond a z face, your code returns only the
       largest excess, but x and y belong in the norm too
     mean-square: your code takes the root of the mean of the squares. Take the root of
-      their sum
+      the sum of the squares
     smallest-taken-off: your code subtracts the smallest absolute value of |p| -
-      half_extents, even outside the box. Subtract this value only inside
+      half_extents, even outside the box. Subtract this value only inside the box
     edges-negative: near an edge or a corner, your result has the wrong sign. The
       distance should be positive outside the box
-    cut-at-both: your code returns the norm of the point clamped to the box. Outside the
-      box, the distance is the norm of the difference between p and this point
+    cut-at-both: your code returns the norm of the point that results from clamping p to
+      the box. Outside the box, return the distance between p and the clamped point
     """
     beyond = np.abs(p) - half_extents
     out = np.maximum(beyond, 0.0)
