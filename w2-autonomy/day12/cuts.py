@@ -168,12 +168,12 @@ OPTIONS = [
          {"join": _kept(0, 1)}),
     Option("one-node-short", "your code removes row i too. Keep row i",
          {"join": _kept(-1, 0)}),
-    Option("both-ends-short", "your code removes rows i and j too. Keep them",
+    Option("both-ends-short", "your code removes rows i and j too. Keep both rows",
            {"join": _kept(-1, 1)}),
-    Option("one-too-many", "your code keeps the row before j. Remove it",
+    Option("one-too-many", "your code keeps the row before j. Remove this row",
            {"join": _kept(0, -1)}),
-    Option("one-too-many", "your code keeps the row after i. "
-                           "Remove it", {"join": _kept(1, 0)}),
+    Option("one-too-many", "your code keeps the row after i. Remove this row",
+           {"join": _kept(1, 0)}),
     Option("one-row-only", "your code removes only the row after i. Remove all rows "
                            "between i and j",
            {"join": lambda p, i, j: np.delete(p, i + 1, axis=0)}),

@@ -166,10 +166,10 @@ def _(tree, sample, step, world):
       to the sample
     farthest: your tree grows from the node farthest from the sample. It should grow
       from the nearest node
-    largest-difference: your code chooses the nearest node by the largest difference of
-      a coordinate. Use the Euclidean distance
+    largest-difference: your code chooses the nearest node by the largest coordinate
+      difference. Use the Euclidean distance
     largest-difference 2: your code finds the nearest node, and its distance, by the
-      largest difference of a coordinate. Use the Euclidean distance
+      largest coordinate difference. Use the Euclidean distance
     sum-of-differences: your code chooses the nearest node by the sum of the absolute
       differences. Use the Euclidean distance
     squared-for-plain: your code divides the step by the squared distance to the sample.

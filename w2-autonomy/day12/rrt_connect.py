@@ -122,8 +122,8 @@ def _(start, goal, world, samples, step):
     connect-to-the-sample: your other tree grows towards the sample. It should grow
       towards the new node
     greedy-samples: your code adds several edges towards the sample. Add only one edge
-    one-tree: your code grows only the start's tree and connects each new node to the
-      goal. Grow two trees
+    one-tree: your code grows only the start's tree and tests the edge from each new
+      node to the goal. Grow two trees
     connect-in-one-jump: your code connects the other tree by a single edge of any
       length. Add edges of one step each
     parent-is-the-newest: your path contains every node of both trees. The parent of a
