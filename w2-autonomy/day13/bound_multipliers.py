@@ -22,7 +22,7 @@ def _(H, f, lo, hi, x):
     """sign: your multipliers have the opposite signs. If a bound moves in the direction
       of the gradient, the cost increases
     absolute: your multipliers have lost their signs. If an upper bound moves up, the
-      cost falls, so the multiplier is negative
+      cost falls, so its multiplier should be negative
     upper-only: your code returns nonzero multipliers only for the upper bounds. A lower
       bound that holds an entry has a nonzero multiplier too
     lower-only: your code returns nonzero multipliers only for the lower bounds. An

@@ -255,9 +255,10 @@ def _(H, f, lo, hi, x):
       bounds again. Release only the entry that would move most
     stops-too-early: your loop ends although a held entry would still move by up to
       1e-4. Use a smaller tolerance
-    few-rounds: your code stops after ten iterations, which are not enough. Repeat until
-      no held entry has to be released
-    upper-limits-passed: your code does not stop the step at the upper bounds
+    few-rounds: your code stops after ten iterations, but some problems need more.
+      Repeat until no held entry has to be released
+    upper-limits-passed: your step can pass the upper bounds. Stop the step at the first
+      bound that it reaches
     held-by-place: your code holds every entry that is at a bound. Release an entry if
       the negative gradient points away from its bound
     frees-the-wrong-ones: your code holds the wrong entries. Hold an entry if the

@@ -105,12 +105,13 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       steps
     half-in-the-first: your code halves the first entry of `drop`. Only the second entry
       has a factor 1/2
-    drop-summed: your `drop` is the sum of its two entries. Return them separately
-    drop-of-lu: your first entry of `drop` uses lu. It should be the sum of k . Qu
-    drop-of-luu: your second entry of `drop` uses luu. It should be the sum of k . Quu k
-      / 2
-    drop-signs: your `drop` has the wrong sign. It should be the change in cost, so k .
-      Qu is negative
+    drop-summed: your `drop` is the sum of its two entries. Return the two entries
+      separately
+    drop-of-lu: the first entry of your `drop` uses lu. It should be the sum of k . Qu
+    drop-of-luu: the second entry of your `drop` uses luu. It should be the sum of k .
+      Quu k / 2
+    drop-signs: your `drop` has the wrong sign. It should be the change in cost, so its
+      first entry is negative
     drop-added: both entries of your `drop` are the sum of the two. Return the two
       entries separately
     drop-quadratic-sign: the second entry of your `drop` has the wrong sign. It should
@@ -128,10 +129,10 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     forwards: your pass goes from the first step to the last. At first, only the
       cost-to-go of the final state is known, so begin with the last step
     lux-not-in-K: your code omits lux in K, but not in Vx and Vxx. Use Qux, which
-      contains lux, in all of them
-    Vx-not-in-k: your k uses only lu. Qu also contains fu^T Vx
+      contains lux, in K, Vx and Vxx
+    Vx-not-in-k: your k uses only lu. Use Qu, which also contains fu^T Vx
     mu-halved-each-step: your code halves mu in each step. Use the same mu in all steps
-    lx-of-the-next: each step in your code uses lx of the next step. Use lx of the same
+    lx-of-the-next: your code uses lx of the next step in each step. Use lx of the same
       step
     drop-mean: your code divides `drop` by the number of steps. It should be the sum
       over the steps
