@@ -112,8 +112,8 @@ def _(source, target):
     """t-of-the-first: your translation fits only the first pair. Use the centroids
     first-for-centre: your code uses the first points instead of the centroids, so the
       noise of one pair changes the fit
-    affine: your function fits an affine map by least squares, but the matrix of an
-      affine map need not be a rotation
+    affine: your function fits an affine map by least squares. The matrix of an affine
+      map need not be a rotation, so fit a rotation and a translation
     """
     R = kabsch(source, target)[:3, :3]
     one = np.hstack([source, np.ones((len(source), 1))])

@@ -41,7 +41,8 @@ for slug, says, other in (
                           "J^T J is already the sum over all points",
      {"share": lambda n: 2 / n}),
     ("divided-by-points", "your code divides the result by the number of pixel "
-                          "coordinates, but J^T J is already the sum over all of them",
+                          "coordinates, but J^T J is already the sum over all "
+                          "coordinates",
      {"share": lambda n: 1 / n}),
     ("reshaped-across", "your code reshapes J to (6, 2 n), which mixes its rows. J has "
                         "one row per pixel coordinate, so its shape is (2 n, 6)",

@@ -109,9 +109,9 @@ for slug, says, other in (
     ("f-forgotten", "your code omits the focal lengths, so your entries are the "
                     "derivatives of x / z and y / z. Multiply the rows by fx and fy",
      {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
-    ("centre-in-the-slope", "your derivatives with respect to z contain the "
-                            "principal point, but the principal point is constant, "
-                            "so its derivative is 0",
+    ("centre-in-the-slope", "your derivatives with respect to z contain the principal "
+                            "point. The principal point is constant, so its "
+                            "derivative is 0",
      {"pixel": with_the_centre}),
     ("x-for-y", "your row for v uses x in the derivative with respect to z. This "
                 "entry should be -fy y / z^2", {"pixel": with_one_name(1, 0)}),

@@ -102,8 +102,8 @@ for slug, says, other in (
                     "ten", {"n": 3}),
     ("J-of-the-guess", "your code uses the Jacobian of the guess in every step. "
                        "Evaluate the Jacobian at the current pose", {"held": True}),
-    ("twist-halves-swapped", "your code uses the step as (v; omega), but the columns "
-                             "of J begin with omega",
+    ("twist-halves-swapped", "your code treats the step as (v; omega). The columns of "
+                             "J begin with omega, so the step is (omega; v)",
      {"move": lambda T, xi: apply_twist(T, np.roll(xi, 3))}),
     ("body-twist", "your code multiplies T by each step on the right. The columns of "
                    "J belong to twists in the camera frame, so the exponential "

@@ -141,7 +141,7 @@ def _(box_a, box_b):
       should report them as overlapping
     touching-left-out 3: your code reports boxes that touch on one side as separate. It
       should report them as overlapping
-    negated: your code inverts the result, but True means that the boxes overlap
+    negated: your code inverts the result. Return True if the boxes overlap
     first-axis-only: your code compares only x. Two boxes overlap only if their
       intervals overlap on all three axes
     two-axes-only: your code does not compare z. Two boxes overlap only if their
@@ -194,14 +194,15 @@ def _(box_a, box_b):
       overlap on all three axes
     other-axes 4: your code compares only z. Two boxes overlap only if their intervals
       overlap on all three axes
-    volume: your code tests the product of the three overlaps, but two negative overlaps
-      have a positive product
-    volume 2: your code tests the product of the three overlaps, but two negative
-      overlaps have a positive product
-    sum-of-overlaps: your code adds the overlaps of the three axes, but each overlap
-      must be at least 0
-    nearly-touching: your code reports an overlap for boxes with a small gap, but such
-      boxes do not overlap
+    volume: your code tests whether the product of the three overlaps is above 0. Test
+      whether each overlap is at least 0
+    volume 2: your code tests whether the product of the three overlaps is at least 0.
+      Test each overlap separately, because two negative overlaps have a positive
+      product
+    sum-of-overlaps: your code adds the overlaps of the three axes. Test each overlap
+      separately, because each overlap must be at least 0
+    nearly-touching: your code reports an overlap for boxes with a small gap. Boxes with
+      a gap do not overlap, so omit the tolerance
     always: your code always returns True. Compare the intervals on all three axes
     never: your code always returns False. Compare the intervals on all three axes
     """

@@ -80,7 +80,7 @@ def _(p, half_extents):
     depth-added-outside: outside the box, your code adds the largest entry of |p| -
       half_extents to the norm. Add this entry only inside the box, where it is negative
     inside-by-the-norm: inside the box, your code returns minus the norm of all three
-      face distances, but only the nearest face matters
+      face distances. Return minus the smallest of them
     farthest-face-inside: inside the box, your code uses the distance to the farthest
       face. Use the nearest face, which has the largest entry of |p| - half_extents
     farthest-face-inside 2: your term min(..., 0) uses the smallest entry of |p| -
@@ -119,10 +119,10 @@ def _(p, half_extents):
       Use the largest of the three entries
     largest-with-max: your code uses max(..., 0) instead of min(..., 0), so it adds the
       largest entry outside the box, and the result inside is 0
-    sum-inside: inside the box, your code adds the three face distances, but only the
-      nearest face matters
-    mean-inside: inside the box, your code returns the mean of the three face distances,
-      but only the nearest face matters
+    sum-inside: inside the box, your code adds the three face distances. Return minus
+      the smallest of them
+    mean-inside: inside the box, your code returns the mean of the three face distances.
+      Return minus the smallest of them
     one-number-inside: inside the box, your code always returns -1. Return minus the
       distance to the nearest face
     least-half-inside: inside the box, your code always returns minus the smallest half
@@ -131,8 +131,8 @@ def _(p, half_extents):
       |p|, but the distance to a face is half_extents - |p|
     upper-faces-inside: inside the box, your code uses only the faces on the positive
       side, but the opposite face can be nearer
-    lengthwise: your code measures the distance along the line to the centre, but the
-      shortest distance to a face is perpendicular to it
+    lengthwise: your code measures the distance along the line to the centre. The
+      shortest distance to a face is perpendicular to the face
     size-of-the-difference: your code uses |p - half_extents|, but the excess beyond a
       face is |p| - half_extents
     cut-at-one: your code limits the excess beyond a face to 1, but the excess has no
@@ -142,7 +142,7 @@ def _(p, half_extents):
     two-of-three: near a corner, your code uses only the two largest excesses. Use all
       three
     first-two-only: if the point lies beyond a z face, your code returns only the
-      largest excess, but x and y belong in the norm too
+      largest excess. Take the norm of all positive excesses
     mean-square: your code takes the root of the mean of the squares. Take the root of
       the sum of the squares
     smallest-taken-off: your code subtracts the smallest absolute value of |p| -

@@ -62,7 +62,8 @@ def _(a0, a1, r):
       and the upper corner
     corner-and-size: your code returns the lower corner and the full sides. Return the
       lower and the upper corner
-    half-not-halved: your centre is correct, but your code does not halve |a1 - a0|
+    half-not-halved: your centre is correct, but the extent on each side is |a1 - a0|
+      instead of |a1 - a0| / 2
     longest-side: your box is a cube, because your code uses the longest side along
       every axis. Each axis has its own extent
     longest-side 2: your box extends from the midpoint by r plus the length of the axis
@@ -85,8 +86,8 @@ def _(a0, a1, r):
       r instead
     with-the-origin: your box always contains the origin. Start the minimum and the
       maximum from a0, not from 0
-    size-of-places: your code takes the minimum and the maximum of absolute values, but
-      the sign of a coordinate matters
+    size-of-places: your code takes the minimum and the maximum of absolute values. Use
+      the coordinates with their signs
     as-a-ball: your result is the box of a sphere around the whole capsule. The box
       should be as small as possible
     """

@@ -160,7 +160,7 @@ def _(a0, a1, r, T_world_box, half_extents):
     t-added: your code adds the position of the box. Subtract it: R^T (x - t)
     radius-forgotten: your code omits the radius, so the result is the distance from the
       axis to the box
-    radius-added: your code adds the radius. Subtract it
+    radius-added: your code adds the radius. Subtract the radius
     radius-to-the-box: your code enlarges the box by the radius, which keeps its corners
       sharp. Subtract the radius from the distance
     radius-to-the-box 2: your code enlarges the box by the radius, which keeps its
@@ -181,14 +181,14 @@ def _(a0, a1, r, T_world_box, half_extents):
       that do not overlap
     outside-only: for an axis that enters the box, your code replaces the negative value
       of `box_sdf` by 0. Keep the negative value, then subtract r
-    as-a-line: your search goes beyond the ends of the axis, but its parameter should
-      stay in [0, 1]
+    as-a-line: your search goes beyond the ends of the axis. The parameter s should stay
+      in [0, 1]
     way-moved: your code also subtracts t from the direction of the axis, but a
       direction should only be rotated
     way-moved 2: your direction of the axis runs from the centre of the box to a1. It
       should run from a0 to a1
     way-of-length-1: your code normalises the direction of the axis, but the parameter
-      still runs from 0 to 1. Use a1 - a0 without normalising it
+      still runs from 0 to 1. Use a1 - a0 itself
     not-into-the-box: your ends stay in the world frame. Express them in the box frame
       with R^T (x - t)
     radius-off-the-box: your code reduces the box by the radius. Subtract the radius
@@ -216,7 +216,7 @@ def _(a0, a1, r, T_world_box, half_extents):
     faces-only: your code tests only the ends and the points where the axis crosses the
       plane of a face, but the nearest point can be another point of the axis
     point-to-box-in-turn: your code alternates between the nearest point of the box and
-      the nearest point of the axis, but it stops after too few steps
+      the nearest point of the axis. It stops after too few steps
     one-section: your search makes only one step, after which 0.618 of the axis remains.
       Repeat the step
     radius-times-the-length: your code multiplies the radius by the length of the axis.

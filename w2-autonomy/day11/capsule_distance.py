@@ -143,7 +143,7 @@ def _(a0, a1, ra, b0, b1, rb):
     lengths-differ: your code uses the difference of the norms of the closest points p
       and o. Use the norm of p - o
     cut-once: your code clamps the distance at 0 between the subtractions of ra and rb.
-      Do not clamp it
+      Omit this clamp
     one-number-inside: for capsules that overlap, your code always returns -1. The
       result should depend on the penetration depth
     one-number-inside 2: for capsules that overlap, your code returns minus the smaller

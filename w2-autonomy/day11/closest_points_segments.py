@@ -75,12 +75,12 @@ def _(a0, a1, b0, b1):
       beyond the ends of the segments
     clamped-apart: your code clamps s and t independently, but clamping one of them
       changes the optimal value of the other
-    s-not-again: your code does not recompute s after it clamps t, but the optimal s
-      depends on t
-    s-not-again 2: your code does not recompute t after it clamps s, but the optimal t
-      depends on s
-    s-not-again 3: your code does not recompute t after the last clamp of s, but the
-      optimal t depends on s
+    s-not-again: your code does not recompute s after it clamps t. Compute s again,
+      because the optimal s depends on t
+    s-not-again 2: your code does not recompute t after it clamps s. Compute t again,
+      because the optimal t depends on s
+    s-not-again 3: your code does not recompute t after the last clamp of s. Compute t
+      again, because the optimal t depends on s
     t-not-cut: your code never clamps t, so the point of the second segment can lie
       beyond an end
     s-not-cut: your code never clamps s, so the point of the first segment can lie
@@ -114,12 +114,12 @@ def _(a0, a1, b0, b1):
       can be anywhere on the segments
     same-share: your code sets t equal to s, but each segment has its own parameter
     shares: your code returns s u and t v. Add the start points a0 and b0
-    beyond-the-ends: your points are measured from a1 and b1, but s and t are measured
-      from a0 and b0
+    beyond-the-ends: your code measures the two points from a1 and b1. Measure them from
+      a0 and b0, because s and t are measured from there
     t-from-the-end: your code measures t from b1. Measure t from b0
     s-from-the-end: your code measures s from a1. Measure s from a0
     unit-directions: your code normalises u and v, so s and t are lengths in metres, but
-      it clamps them to [0, 1]. Use u and v without normalising them
+      your code clamps s and t to [0, 1]. Use u and v themselves
     nearest-to-the-middle: your code returns the midpoint of the second segment and the
       point of the first segment that is nearest to this midpoint. The closest point of
       the second segment need not be its midpoint

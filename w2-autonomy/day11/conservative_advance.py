@@ -133,7 +133,8 @@ def _(s, distance, delta_q, radii):
       not the bound in the task
     reach-forgotten: your code omits the radii, but a rotation in radians becomes a
       distance only when multiplied by a radius
-    dq-forgotten: your bound omits delta_q, but a longer motion needs a shorter step
+    dq-forgotten: your bound omits delta_q. A longer motion moves the arm further, so
+      the bound should grow with delta_q
     of-what-is-left: your code multiplies the step by 1 - s. The argument delta_q
       belongs to the whole motion, so omit this factor
     of-what-is-left 2: your code divides the step by 1 - s. The argument delta_q belongs
@@ -264,8 +265,8 @@ def _(s, distance, delta_q, radii):
 
 @row.wrong
 def far_is_free(s, distance, delta_q, radii):
-    """if the distance is more than half a metre, your code returns 1, but a long motion
-    can use up any distance"""
+    """if the distance is more than half a metre, your code returns 1. A long motion can
+    use up any distance, so use the bound"""
     if distance <= 0:
         return s
     speed = np.abs(delta_q) @ radii

@@ -63,8 +63,8 @@ def _(link_lengths, link_radii):
       the distal links
     next-only: your bound stops at the next link. Use the bound of the next joint
       instead of the radius of the next link
-    from-the-base: your code measures from the base. Measure from joint i to the links
-      distal to it
+    from-the-base: your code measures from the base. Measure from joint i to its distal
+      links
     offset-one-late: for joint i, your code uses link_lengths[i + 1]. The distance from
       link i to the next link is link_lengths[i]
     offset-of-the-last: your code adds the length of the last link, but no link follows
@@ -76,13 +76,14 @@ def _(link_lengths, link_radii):
     far-forgotten: your code adds only the link lengths. Include the link radii
     offsets-forgotten: your code omits the link lengths, so the result is the largest
       link radius
-    all-summed: your code adds the radii of all distal links, but only one point is the
-      farthest
+    all-summed: your code adds the radii of all distal links. Only one point is the
+      farthest, so use only the radius of its link
     largest-far: your code adds the largest link radius of the arm to the distance of
       the last link. Add each radius to the distance of its own link, and then take the
       maximum
-    least: your code takes the smaller of the two distances. Take the larger one,
-      because the bound must hold for every distal point
+    least: your code takes the minimum of the link radius and the sum of the link length
+      and the bound of the next joint. Take the maximum, because the bound must hold for
+      every distal point
     not-in-a-row: your code adds the link length to the joint's own link radius. Add the
       link length to the bound of the next joint, and take the maximum of this sum and
       the radius
@@ -92,7 +93,7 @@ def _(link_lengths, link_radii):
       have its own bound
     backwards: your result is in reverse order, but its first entry belongs to joint 1
     sum-from-the-base: your code sums the link lengths from the base to the joint. Sum
-      them from the joint to the distal link
+      the link lengths from the joint to the distal link
     far-of-its-own: your code adds the radius of the joint's own link to the sum of all
       distal link lengths. Add each radius to the distance of its own link, and then
       take the maximum
@@ -131,18 +132,18 @@ def _(link_lengths, link_radii):
       the maximum
     largest-far-next: your code adds the largest link radius to the link length. Add the
       bound of the next joint instead
-    mean-not-largest: your code takes the mean over the distal links, but an upper bound
-      is the maximum
+    mean-not-largest: your code takes the mean over the distal links. Take the maximum,
+      because the bound must hold for every distal point
     offsets-alone: your code takes the maximum of the link radius and the sum of the
       link lengths. Add the distal radii to the lengths
     last-link-forgotten: your code treats the radius of the last link as 0. Use the last
       entry of link_radii
-    last-link-forgotten 2: your code omits the last link, but its farthest point can be
-      the farthest of all
+    last-link-forgotten 2: your code omits the last link, but the farthest point of the
+      arm can be on the last link
     offsets-to-the-end: your code adds all link lengths, including the last one, and the
       radius of the last link. No link follows the last one
-    offset-too-early: your code adds the length after each link before the radius of
-      that link, but this length belongs to the next link
+    offset-too-early: your code adds link_lengths[j] to the radius of link j itself.
+      This length belongs only to the links after link j
     far-twice: your code adds the joint's own link radius to the bound. The bound should
       be the maximum of this radius and the distances to the points of the distal links
     """

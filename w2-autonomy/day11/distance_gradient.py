@@ -123,7 +123,8 @@ def _(J_space, p, o, link):
     two-directions: your code normalises p and o separately. Normalise their difference
     parts-summed: your code adds the absolute values of the velocity components. Project
       the velocity onto the normal
-    summed-up: your entries are cumulative sums, but each entry belongs to one joint
+    summed-up: your entries are cumulative sums. Return the derivative for each joint
+      alone
     one-place-early: each of your entries is one position too early. The first entry
       belongs to joint 1
     one-place-late: each of your entries is one position too late. The first entry

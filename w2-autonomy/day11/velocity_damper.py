@@ -134,8 +134,8 @@ def _(qd, grad, distance, gain):
       part of the velocity that is allowed
     stops-dead 2: your code stops the arm if it approaches the obstacle too fast, and
       also if grad is 0. Keep the part of the velocity that is allowed
-    part-removed: your code removes the whole component along grad, but an approach
-      within the bound is allowed
+    part-removed: your code removes the whole component along grad. Keep the part that
+      the bound allows
     sign-of-the-bound: your bound has the wrong sign. The condition is grad . qd >=
       -gain distance
     distance-sign-lost: your code uses the absolute value of the distance. A negative
@@ -143,8 +143,8 @@ def _(qd, grad, distance, gain):
     gain-forgotten: your bound omits the gain. It should be -gain distance
     distance-forgotten: your bound omits the distance. It should be -gain distance
     distance-over-gain: your code divides the distance by the gain. Multiply the two
-    wrong-side: your code reverses the comparison, so it changes allowed velocities and
-      keeps those that are too fast
+    wrong-side: your code reverses the comparison, so it changes the allowed velocities
+      and keeps the others
     leaving-forbidden: your code also limits velocities away from the obstacle. Limit
       only the approach
     joint-by-joint: your code applies the bound to each joint separately, but the bound
@@ -154,7 +154,7 @@ def _(qd, grad, distance, gain):
     largest-joint-only: your code changes only the joint with the largest entry of grad,
       but the smallest change is along grad
     slope-unit: your code normalises grad in grad . qd, but not in the bound. Use grad
-      without normalising it
+      itself
     only-inside: your code limits the velocity only if the distance is negative. Limit
       it at every distance
     standing-still: if grad is 0, your code divides by 0. Return qd
@@ -165,11 +165,11 @@ def _(qd, grad, distance, gain):
     stopped-where-it-overlaps: if the distance is not positive, your code returns 0.
       Keep the part of the velocity that leads away
     no-way-out: your code clamps a negative distance to 0, so an arm that overlaps the
-      obstacle is not moved away
-    coming-near: your code changes every velocity towards the obstacle, but an approach
-      within the bound is allowed
-    by-the-sizes: your code compares absolute values, so a fast motion away from the
-      obstacle is changed too
+      obstacle is not moved away. Use the negative distance
+    coming-near: your code changes every velocity towards the obstacle. Keep an approach
+      that the bound allows
+    by-the-sizes: your code compares absolute values, so it also changes a fast motion
+      away from the obstacle. Keep the signs
     half-of-it: your code adds only half of the correction. Add the whole correction
     twice-of-it: your code adds twice the correction. Add it once
     one-joint-only: your code changes only the first joint, but the smallest change is

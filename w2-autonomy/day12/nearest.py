@@ -141,8 +141,8 @@ def _(tree, q):
       root
     smallest-coordinate: your code compares the nodes by their smallest coordinate
       difference. Use the Euclidean distance
-    two-coordinates: your code compares only the first two coordinates, but a node can
-      have any number of them
+    two-coordinates: your code compares only the first two coordinates. Use the distance
+      in all coordinates
     first-left-out: your code does not compare the first coordinate. Use the distance in
       all coordinates
     cubed: your code cubes the differences, so they keep their signs and cancel. Square

@@ -172,10 +172,10 @@ def _(a, b, c, limits, sd):
     """not-sorted: if `a` is negative, your code swaps the lower and the upper bound of
       that joint. Sort the two quotients
     speed-forgotten: your code omits the term b sd^2
-    speed-sign: your code adds b sd^2 to the limits. Subtract it
+    speed-sign: your code adds b sd^2 to the limits. Subtract b sd^2
     gravity-forgotten: your code omits the term c
-    gravity-sign: your code adds c to the limits. Subtract it
-    rest-added: your code adds b sd^2 + c to the limits. Subtract b sd^2 + c from them
+    gravity-sign: your code adds c to the limits. Subtract c
+    rest-added: your code adds b sd^2 + c to the limits. Subtract b sd^2 + c
     rest-not-divided: your code does not divide b sd^2 + c by `a`
     one-sided: your b sd^2 + c has the wrong sign in the lower bound. Subtract b sd^2 +
       c from both limits
@@ -190,8 +190,8 @@ def _(a, b, c, limits, sd):
     last-joint-only: your code uses only the last joint. Does your loop overwrite the
       earlier bounds?
     half-the-limit: your code uses only half of each torque limit. Use the whole limit
-    not-divided: your bounds are torques. Divide them by `a`
-    times-a: your code multiplies the torques by `a`. Divide them by `a`
+    not-divided: your bounds are torques. Divide the torques by `a`
+    times-a: your code multiplies the torques by `a`. Divide the torques by `a`
     one-limit: your code allows torques from 0 to the limit, but the torques may range
       from -limit to limit
     greatest-first: your upper bound comes first. Return the lower bound first

@@ -70,7 +70,8 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     a-and-b-exchanged: your code swaps `a` and `b`. The factor dq_ds belongs to sdd, and
       d2q_ds2 belongs to sd^2
     g-first: your first row is c. The order should be a, b, c
-    ddq-in-a: your code swaps M dq_ds and M d2q_ds2, but qdd is dq_ds sdd + d2q_ds2 sd^2
+    ddq-in-a: your code swaps M dq_ds and M d2q_ds2. The factor of sdd is M dq_ds,
+      because qdd = dq_ds sdd + d2q_ds2 sd^2
     m-dq-twice: your b contains M dq_ds. It should contain M d2q_ds2
     both-in-a: your code adds M d2q_ds2 to `a`, but this term is multiplied by sd^2, so
       it belongs in `b`

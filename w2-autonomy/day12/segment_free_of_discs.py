@@ -270,7 +270,7 @@ def _(a, b, discs):
     from-the-origin: your code projects the centre itself onto the edge. First subtract
       `a` from the centre
     other-way: your code measures the parameter from one end of the edge, but it applies
-      the parameter from the other end
+      the parameter from the other end. Use the same end for both
     box: your code treats the discs as squares, because it compares each coordinate
       separately. Use the Euclidean distance
     foot-without-a: your nearest point omits the start `a`. Add `a`

@@ -148,13 +148,14 @@ def _(path, world, pairs):
       too. Keep row i, and leave neighbouring rows unchanged
     two-apart-left: your code skips rows that are two apart, but the point between them
       can be removed
-    hit-for-free: your code inverts the test, so it applies shortcuts that are blocked
+    hit-for-free: your code inverts the test, so it applies shortcuts that are blocked.
+      Apply a shortcut if its edge is free
     unchanged: your code returns the original path. Apply each shortcut whose edge is
       free
     all-but-the-ends: your code returns only the start and the end. Keep the other
       points of the path
     only-the-ends-checked: your code tests only the two points. Test the edge between
-      them
+      these points
     middle-checked: your code tests only the midpoint of the edge. Test the whole edge
     reversed: your path runs from its end to its start. Keep the order of the waypoints
     ends-at-i: your code returns only the path up to i. Append the path from j on

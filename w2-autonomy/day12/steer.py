@@ -95,8 +95,8 @@ def _(q, target, step):
     direction-only 2: your code returns the displacement, limited to one step. Add the
       displacement to q
     away: your point moves away from the target. The direction should be target - q
-    away 2: if the target is far, your point moves away from it. The direction should be
-      target - q
+    away 2: if the target is far, your point moves away from the target. The direction
+      should be target - q
     stays-when-near: if the target is within one step, your code returns q. Return the
       target
     always-q: your code always returns q. It should move one step towards the target
@@ -113,7 +113,8 @@ def _(q, target, step):
     from-the-origin: your step starts at the origin. Start at q
     square-compared: your code compares the squared distance with the step. Compare the
       distance itself
-    two-coordinates: your distance uses only the first two coordinates. Use all of them
+    two-coordinates: your distance uses only the first two coordinates. Use all
+      coordinates
     root-of-the-mean: your code takes the root of the mean of the squares. Take the root
       of the sum of the squares
     length-of-the-target: your code divides the displacement by the norm of the target.

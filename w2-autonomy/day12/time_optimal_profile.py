@@ -141,9 +141,10 @@ def _(a, b, c, limits, sd2_max):
     coriolis-forgotten: your code omits b sd^2 in the torques
     cannot-stand-goes: your code returns a nonzero motion although gravity alone exceeds
       a torque limit. The arm cannot stay at rest at such a point, so return zeros
-    few-bisections: your bisection stops too early, so its result is not accurate enough
+    few-bisections: your bisection stops too early, so its result is not accurate
+      enough. Halve the interval more often
     few-bisections 2: your bisection stops too early, so its result is not accurate
-      enough
+      enough. Halve the interval more often
     limits-of-the-next-point: your code computes the bounds on sdd for a step at the end
       of the step. Compute the bounds at the first point of the step
     bobrow: in the backward pass, your code computes the bounds on sdd for a step at the

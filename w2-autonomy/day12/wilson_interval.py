@@ -115,9 +115,9 @@ def _(successes, n):
     one-more: your p is (k + 1) / (n + 2), with one success and one failure added. Use k
       / n
     quadratic-sign: your quadratic equation for p has the coefficient -2 k / n + z^2 /
-      n, but it should be -(2 k / n + z^2 / n)
-    quadratic-z2: your quadratic equation for p has the coefficient -(2 k / n + z^2),
-      but it should be -(2 k / n + z^2 / n)
+      n. It should be -(2 k / n + z^2 / n)
+    quadratic-z2: your quadratic equation for p has the coefficient -(2 k / n + z^2). It
+      should be -(2 k / n + z^2 / n)
     half-width: your interval is half as wide as it should be. Add and subtract the
       whole half-width
     one-is-none: for n = 1, your code returns (0, 1), but only n = 0 is a special case

@@ -240,9 +240,9 @@ def _(H, f, lo, hi, x):
       within the bounds
     scaled-back: your step towards the unconstrained minimiser ends at the first bound.
       From there, the free entries should move on
-    solved-once-more: your code clamps the unconstrained minimiser and solves the free
-      entries again only once. After that, other entries may reach a bound, or a held
-      entry may have to be released
+    solved-once-more: your code clamps the unconstrained minimiser and solves for the
+      free entries again only once. Afterwards, another entry may reach a bound, or a
+      held entry may have to be released, so once is not enough
     clipped-for-good: your code solves the free entries again until all are within the
       bounds, but it never releases a clamped entry. Release an entry if the negative
       gradient points away from its bound

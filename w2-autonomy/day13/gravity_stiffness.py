@@ -110,8 +110,8 @@ def _(J_space, masses, coms, g):
       correct. Copy the lower triangle to the upper one
     other-half: your code computes the upper triangle and copies it. The formula with g
       x omega_j holds only for i >= j, so compute the lower triangle
-    diagonal-doubled: your code doubles the diagonal, because both of the triangles that
-      you add contain it
+    diagonal-doubled: your code adds two triangles that both contain the diagonal, so
+      the diagonal is doubled. Add the diagonal only once
     diagonal-only: your off-diagonal entries are all 0, but the rotation of one joint
       also changes the torque at other joints
     only-z: your code uses only the z component of g, but gravity may point in any

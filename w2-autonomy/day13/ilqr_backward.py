@@ -101,8 +101,8 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       already in k and K
     nothing-saved: your `Vx` and `Vxx` are Qx and Qxx. Add the terms with the gains,
       which reduce the cost
-    drop-last-step: your `drop` contains the values of only one step. Sum them over all
-      steps
+    drop-last-step: your `drop` contains the values of only one step. Sum the values
+      over all steps
     half-in-the-first: your code halves the first entry of `drop`. Only the second entry
       has a factor 1/2
     drop-summed: your `drop` is the sum of its two entries. Return the two entries

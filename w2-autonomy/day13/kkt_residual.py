@@ -44,7 +44,7 @@ def _(H, f, lo, hi, x):
       minimiser, the gradient of an entry that is held at a bound need not be 0, so
       clamp the step to the bounds
     no-abs-the-other-way: your code omits the absolute value, so it ignores every entry
-      that decreases
+      that decreases. Take the absolute value
     not-compared: your result is the clamped point itself. Return the largest absolute
       difference between x and this point
     free-only: your code uses only the entries that are between their bounds. An entry

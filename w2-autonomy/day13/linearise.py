@@ -101,8 +101,8 @@ def _(M, stiffness, damping, h):
     damping-not-divided: your code does not divide the damping by the mass, and the
       damping acts on the old velocity. In MuJoCo the new velocity is (M + h D)^-1 M v
       => both
-    B-not-divided: your B omits the factor (M + h D)^-1, but the input is a torque, not
-      an acceleration
+    B-not-divided: your B omits the factor (M + h D)^-1. The input is a torque and not
+      an acceleration, so multiply it by this factor
     B-halved-below: your code halves the lower half of B. The torque acts for the whole
       step
     B-without-damping: your B uses M^-1 without the damping. Use (M + h D)^-1

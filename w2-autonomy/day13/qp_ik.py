@@ -69,7 +69,7 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
       joint is held at its bound, the other joints should compensate for it, so solve
       the quadratic program with bounds
     scaled-back: your code scales the whole step down until every joint is within its
-      bounds, but the joints that are not at a bound should move further
+      bounds. The joints that are not at a bound should move further
     not-limited: your code ignores the bounds dq_lo and dq_hi. Solve the quadratic
       program with these bounds
     lower-only: your code uses only the lower bounds. Use the upper bounds too
@@ -93,8 +93,8 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
       it, so solve the quadratic program with bounds
     damping-weighted: your code multiplies the damping by the mean of the weights, but
       the weights apply only to the rows of the error
-    stands-still-allowed: your code widens the bounds until they contain 0, but a joint
-      beyond its range should move back into its range
+    stands-still-allowed: your code widens the bounds until they contain 0. A joint
+      beyond its range should move back into its range, so keep the bounds
     translation-only: your code uses only the translation part of the error. Use all six
       components
     rotation-only: your code uses only the rotation part of the error. Use all six

@@ -34,7 +34,7 @@ def _(P, A, B, Q, R):
       - B K) already contains K^T R K
     K-of-the-new-P: your code computes the gain from the new P. Use the argument P,
       which is the cost-to-go of the next state
-    gain-sign: your K has the wrong sign, because the minus sign is already in u = -K x
+    gain-sign: your K has the wrong sign. The minus sign is already in u = -K x
     A-P-AT: your code uses `A P A^T` instead of A^T P A. The first form propagates a
       covariance, and the second one a cost-to-go
     Q-for-P: your gain uses Q instead of P, the cost-to-go of the next state

@@ -42,8 +42,8 @@ def _(points, centre):
       the argument `centre`
     forces-negative: your forces have the wrong sign. They should act on the cube, not
       on the fingers
-    forces-over-n: your code divides the forces by the number of points. Do not divide
-      them
+    forces-over-n: your code divides the forces by the number of points. Omit this
+      division
     """
     arms = points - centre
     one = np.eye(3)

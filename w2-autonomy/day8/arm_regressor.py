@@ -142,11 +142,11 @@ for slug, says, other in (
     ("gravity-forgotten", "your code does not use the argument g. Begin A with the "
                           "acceleration of the base, which is -g",
                           {"gravity": 0.0}),
-    ("acceleration-not-turned", "your code transforms V into the link frame, but not "
-                                "A. Transform both",
+    ("acceleration-not-turned", "your code transforms V into the link frame, but it "
+                                "leaves A in the world frame. Transform both",
      {"both": False}),
     ("twist-too-late", "your code uses V before it adds S qd of joint i, so V is the "
-                       "twist of the previous link", {"late": True}),
+                       "twist of the previous link. Add S qd first", {"late": True}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(walk, **other))
 
@@ -169,8 +169,8 @@ def added_up_in_the_links(J, T, qd, qdd, g):
 
 @row.wrong
 def grouped_by_number(J_space, T_links, qd, qdd, g):
-    """your columns are grouped by parameter, with all masses first. Group them by link,
-    ten columns each"""
+    """your columns are grouped by parameter, with all masses first. Group the columns
+    by link, ten columns each"""
     Y = arm_regressor(J_space, T_links, qd, qdd, g).reshape(7, 7, 10)
     return np.swapaxes(Y, 1, 2).reshape(7, 70)
 

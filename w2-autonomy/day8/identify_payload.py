@@ -60,8 +60,8 @@ def _(J_site, R_site, extra, g):
       entries. To transpose each matrix, swap the last two axes
     wrenches-first: your code converts each pose's torques to a wrench and fits the
       wrenches. Fit the torques themselves, because they are the measured quantities
-    cut-too-high: your code leaves out small singular values, but if the poses differ
-      only slightly, these values determine a part of m c. Keep them
+    cut-too-high: your code omits small singular values. Keep these values, because they
+      determine a part of m c if the poses differ only slightly
     solutions-averaged: your code solves each pose alone and averages the solutions. One
       pose does not determine all four parameters, so stack the rows of all poses
     weight-for-mass: your first result is the weight in newtons. The column for m should

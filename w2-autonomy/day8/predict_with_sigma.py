@@ -57,8 +57,8 @@ def _(Y, tau, Y_new, rtol):
     sizes-added 2: your sigma adds the absolute values of the weights of the
       measurements. The variances of independent errors add, so sigma should be the
       square root of the sum of the squared weights
-    sigma-not-cut: your sigma includes the small singular values that the fit leaves
-      out. Leave them out of sigma too
+    sigma-not-cut: your sigma includes the small singular values that the fit omits.
+      Omit these values in sigma too
     """
     torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
     U, s, Vt = parts(Y, rtol)

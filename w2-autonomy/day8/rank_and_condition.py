@@ -52,23 +52,16 @@ def of_what_counts(case: Case) -> Finding | None:
         says += "not use the smallest singular value that the rank counts."
         return Finding("condition-of-all", says)
     says = miscounted(more, fewer, calls)
-    says += (
-        ""
-        if other
-        else " The condition number uses the smallest value that the rank counts."
-    )
+    if not other:
+        says += " The condition number uses the smallest value that the rank counts."
     return Finding("cut-elsewhere", says)
 
 
 def miscounted(more: int, fewer: int, calls: str) -> str:
     """Return in how many calls the wrong singular values are counted."""
-    parts = [f"your code counts too many singular values in {more} {calls}"] * (
-        more > 0
-    )
-    parts += [f"your code counts too few singular values in {fewer} {calls}"] * (
-        fewer > 0
-    )
-    says = f"Your code counts {', and '.join(parts)}. "
+    parts = [f"too many singular values in {more} {calls}"] * (more > 0)
+    parts += [f"too few singular values in {fewer} {calls}"] * (fewer > 0)
+    says = f"Your code counts {' and '.join(parts)}. "
     return f"{says}Count the values above rtol times the largest one."
 
 
@@ -89,8 +82,8 @@ def _(rng):
 
 for slug, says, told in (
     ("rtol-absolute", "your code compares the singular values with rtol itself. "
-                      "Compare them with rtol times the largest one; otherwise the "
-                      "rank depends on the unit",
+                      "Compare them with rtol times the largest one, because "
+                      "otherwise the rank depends on the unit",
      lambda s, rtol: (n := np.sum(s > rtol), s[0] / s[n - 1])),
     ("condition-of-all", "your condition number uses the smallest of all singular "
                          "values. Use the smallest singular value that the rank "
@@ -124,8 +117,9 @@ for slug, says, told in (
     ("hidden-for-shown", "your rank is the number of singular values below the limit. "
                          "It should be the number above the limit",
      lambda s, rtol: (len(s) - (n := np.sum(s > rtol * s[0])), s[0] / s[n - 1])),
-    ("condition-squared", "your code computes the condition number of Y^T Y, which "
-                          "is the square of the condition number of Y",
+    ("condition-squared", "your code computes the condition number of Y^T Y, which is "
+                          "the square of the condition number of Y. Use the singular "
+                          "values of Y",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
     ("condition-rooted", "your condition number is the square root of the ratio of "
                          "the singular values. Take a square root only if you use "

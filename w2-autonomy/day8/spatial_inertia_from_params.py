@@ -50,7 +50,7 @@ def _(phi):
 @row.wrongs
 def _(phi):
     """lower-half-zero: your matrix has the products Ixy, Ixz and Iyz only above the
-      diagonal, but I is symmetric
+      diagonal. Write them below the diagonal too, because I is symmetric
     inertia-about-the-centre: your code adds m [c] [c]^T to I, but I in phi is about the
       origin and already includes this term
     steiner-without-m: your code adds [h] [h]^T to I, but I in phi is already about the

@@ -115,8 +115,8 @@ def parts(Y, rtol):
 
 @row.wrongs
 def _(Y, tau, rtol):
-    """nothing-cut: your code uses all singular values. Omit those below rtol times the
-      largest one, because noise dominates their combinations of parameters
+    """nothing-cut: your code uses all singular values. Omit the values below rtol times
+      the largest one, because noise dominates their combinations of parameters
     rtol-absolute: your code compares the singular values with rtol itself. Compare them
       with rtol times the largest one
     cut-by-the-sum: your code compares the singular values with rtol times their sum.
@@ -131,11 +131,12 @@ def _(Y, tau, rtol):
       largest one. These eigenvalues are the squares of the singular values, so compare
       them with rtol^2 times the largest one
     ridge: your code adds a constant to the diagonal of Y^T Y, which reduces every
-      parameter, even those that the data determine
+      parameter. Omit the small singular values instead, so that the other combinations
+      keep their values
     mean-taken-off: your code first subtracts the mean of tau, but the model tau = Y phi
       has no constant term
-    times-s: your fit multiplies by the singular values. The pseudo-inverse of Y divides
-      by them
+    times-s: your fit multiplies by the singular values. Divide by them, as in the
+      pseudo-inverse of Y
     first-columns: your code fits only the first r columns of Y, where r is the rank.
       These columns need not be linearly independent, so use all columns and the SVD
     """

@@ -35,8 +35,8 @@ def _(dt, accel_psd):
       velocity, and the angle is the integral of the velocity, so the two entries differ
     Q-speed-only: your Q has only the velocity entry, accel_psd dt, but a velocity
       change during dt also changes the angle
-    q-squared: your code squares accel_psd, but a power spectral density is already
-      proportional to a variance
+    q-squared: your code squares accel_psd. Use accel_psd itself, because a power
+      spectral density is already proportional to a variance
     off-diagonal-sign: the off-diagonal entries of your Q are negative, but a positive
       velocity change also increases the angle
     speed-first: your code swaps the angle and the velocity in Q. The state is (angle;

@@ -53,14 +53,14 @@ def _(residual, threshold):
       because 0 means no contact
     from-zero 2: your code counts the joints from 0 and returns -1 without a contact.
       The first joint has the number 1, and 0 means no contact
-    negative-only: your code detects only residuals below minus the threshold, but a
-      contact torque may have either sign
+    negative-only: your code detects only residuals below minus the threshold. Compare
+      the absolute values, because a contact torque may have either sign
     sign-lost-first: your code compares only positive residuals with the thresholds and
       returns the first joint above its threshold. Compare the absolute values, and
-      return the last joint => both
+      return the last such joint => both
     sign-lost-first 2: your code compares only positive residuals with the thresholds
       and returns the first joint above its threshold, or 1 if there is none. Compare
-      the absolute values, and return the last joint => both
+      the absolute values, and return the last such joint => both
     sign-lost-from-zero: your code compares only positive residuals with the thresholds
       and counts the joints from 0. Compare the absolute values, and count from 1 =>
       both
@@ -85,8 +85,8 @@ def _(residual, threshold):
     all-or-none: your function returns 7 as soon as one joint is over its threshold.
       Return the number of the last such joint
     last-of-none: your function returns 7 if no joint is over its threshold. Return 0
-    from-the-tip: your code counts the joints from the tip. Count them from the base,
-      where joint1 has the number 1
+    from-the-tip: your code counts the joints from the tip. Count the joints from the
+      base, where joint1 has the number 1
     until-one-does-not: your search stops at the first joint under its threshold, but a
       later joint may be over its threshold
     largest-threshold: your code compares every joint with the largest threshold, but

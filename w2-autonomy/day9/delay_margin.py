@@ -66,7 +66,7 @@ def _(kp, kd):
     """critical-only: your result is 0.6474 / sqrt(kp), which is the delay margin only
       for critical damping. Use the phase lead and the crossover frequency
     damper-alone: your result is pi / (2 kd), the delay margin without a proportional
-      term, but kp changes the phase lead and the crossover frequency
+      term. The gain kp changes both the phase lead and the crossover frequency
     """
     return {"critical-only": 0.6474 / np.sqrt(kp), "damper-alone": np.pi / 2 / kd}
 

@@ -65,7 +65,8 @@ for slug, says, other in (
     ("surprise-sign", "your innovation is H x - z, so the state moves away from the "
                       "reading. The innovation should be z - H x",
      {"of": lambda z, Hx: Hx - z}),
-    ("R-rooted", "your code uses the square root of R, but R is already a covariance",
+    ("R-rooted", "your code uses the square root of R. Use R itself, because R is a "
+                 "covariance and not a standard deviation",
      {"of_R": lambda R: np.sqrt(np.abs(R))}),
     ("divided-by-R", "your K is P H^T R^-1, which is correct only with the updated "
                      "P. With the predicted P, use the innovation covariance S "

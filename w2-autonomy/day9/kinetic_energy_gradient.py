@@ -51,8 +51,8 @@ for slug, says, other in (
                       "to 7",
      {"felt": lambda i: slice(i, i + 1)}),
     ("later-links-only",
-     "your code omits the contribution of link i itself, but the sum should begin "
-     "with link i",
+     "your code omits the contribution of link i itself. The sum should begin with "
+     "link i",
      {"felt": lambda i: slice(i + 1, None)}),
     ("last-link-left-out", "your code omits the contribution of link 7. Does your "
                            "loop end one link too early?",

@@ -69,7 +69,8 @@ for slug, says, other in (
                        "had been 0. It should start at x[0]",
                        {"first": lambda x, a: a * x[0]}),
     ("by-the-sample-before", "your code uses the previous sample instead of the "
-                             "previous output, so the filter has no memory",
+                             "previous output, so the filter has no memory. Use the "
+                             "previous output",
      {"step": lambda y, now, before, a: a * now + (1 - a) * before}),
     ("change-added", "your code adds alpha times the change of x. Add alpha times the "
                      "difference between x and the previous output",
@@ -86,8 +87,8 @@ for slug, says, other in (
 def _(x, dt, cutoff):
     """backwards: your filter runs from the last sample to the first, so it uses samples
       that are not known yet
-    there-and-back: your filter runs forwards and then backwards, as filtfilt does, but
-      the second pass uses samples that are not known yet
+    there-and-back: your filter runs forwards and then backwards, as filtfilt does. Omit
+      the backward pass, because it uses samples that are not known yet
     what-is-fast: your output is x - y, which is a high-pass filter. Return y
     not-filtered: your output is x itself, so your code does not filter it
     last-left-out: your last output is 0. Does your loop end one sample too early?

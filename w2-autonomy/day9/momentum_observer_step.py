@@ -47,8 +47,8 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
     fed-back-times-gain: your integral contains the old residual times the gain. Add the
       residual without the gain, because it is already a torque
     low-passed-again: your code adds gain (momentum - integral) times dt to the old
-      residual. Return gain (momentum - integral) itself, because the integral already
-      filters it
+      residual. Return gain (momentum - integral) alone, because the integral already
+      makes it a low pass
     residual-kept: your code adds the old residual to the new one. Return the new
       residual alone => both
     residual-taken-off: your code subtracts the old residual from the new one. Return

@@ -60,7 +60,7 @@ def _(n, m):
       The distribution of the mean NIS is skewed, and only its cube root is nearly
       Gaussian
     one-over-n: your interval m +- 1.96 / sqrt(n) assumes a standard deviation of 1 for
-      each NIS, but the standard deviation is sqrt(2 m)
+      each NIS. The standard deviation of a NIS is sqrt(2 m)
     cube-inside: your code cubes 1 - c and 1.96 sqrt(c) separately. Cube their sum and
       their difference
     """

@@ -25,9 +25,9 @@ row.cases(
 
 @row.wrongs
 def _(pred, target):
-    """summed-over-columns: your loss and its gradient sum over the columns and average
-      over the rows. Take the mean over all n m entries
-    summed-over-columns 2: your loss is the sum over the columns and the mean over the
+    """summed-over-columns: your loss and its gradient use the sum over the columns and
+      the mean over the rows. Take the mean over all n m entries
+    summed-over-columns 2: your loss uses the sum over the columns and the mean over the
       rows. Take the mean over all n m entries
     absolute: your loss is the mean absolute error. Return the mean squared error
     not-divided: your gradient is 2 (pred - target). The loss is a mean over n m

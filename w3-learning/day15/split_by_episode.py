@@ -34,8 +34,8 @@ def _(episode, held_out):
     """rows-for-episodes: your code uses the numbers in held_out as indices of rows.
       They are numbers of episodes, so hold out every row whose entry in `episode` is
       one of these numbers
-    as-many-rows: your code holds out the last rows, as many as held_out has entries.
-      This can split an episode, so hold out whole episodes
+    as-many-rows: your code holds out the last len(held_out) rows. This can split an
+      episode, so hold out all rows of each held-out episode
     sixty-rows: your code divides the index of a row by 60 to obtain its episode. Use
       the numbers in `episode`, because an episode need not have 60 rows
     training-rows: your mask is True for the training rows. It should be True for the
