@@ -39,7 +39,7 @@ def _(fovy, width, height):
       height / 2), the centre of the image
     y-up: your second focal length is negative, but v and y both point down
     whole-division: your code uses the operator //, which rounds half of an odd number
-      down. The centre of 353 pixels is at 176.5
+      down. Use /, because the centre of 353 pixels is at 176.5
     """
     f = height / 2 / np.tan(fovy / 2)
     fw = width / 2 / np.tan(fovy / 2)

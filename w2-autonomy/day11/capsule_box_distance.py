@@ -146,7 +146,8 @@ def _(a0, a1, r, T_world_box, half_extents):
     eleven-points 2: your code tests only some points of the axis, but the nearest point
       can lie between the tested points
     nearest-to-the-centre: your code uses the point of the axis nearest to the centre of
-      the box. Another point can be nearer to a face
+      the box. Another point can be nearer to a face, so minimise `box_sdf` along the
+      axis
     world-axes: your code translates the ends to the box, but it does not rotate them
       into the box frame. Use R^T (x - t)
     turned-the-other-way: your code multiplies the ends by R. Use R^T to express them in
@@ -212,21 +213,22 @@ def _(a0, a1, r, T_world_box, half_extents):
     mean-along: your code returns the mean of the distances along the axis. Return the
       minimum
     edges-only: your code computes the distance to the edges of the box. A face can be
-      nearer, and the axis can enter the box
+      nearer, and the axis can enter the box, so use `box_sdf`
     faces-only: your code tests only the ends and the points where the axis crosses the
       plane of a face, but the nearest point can be another point of the axis
     point-to-box-in-turn: your code alternates between the nearest point of the box and
-      the nearest point of the axis. It stops after too few steps
+      the nearest point of the axis, and it stops after too few steps. Minimise
+      `box_sdf` along the axis instead
     one-section: your search makes only one step, after which 0.618 of the axis remains.
       Repeat the step
     radius-times-the-length: your code multiplies the radius by the length of the axis.
       Subtract r itself
     share-returned: your code returns the parameter s of the nearest point. Return the
       distance at this point
-    five-sections: your search stops too early. Each step only reduces the interval to
-      0.618 of its length
-    five-sections 2: your search stops too early. Each step only reduces the interval to
-      0.618 of its length
+    five-sections: your search stops too early. Each step leaves 0.618 of the interval,
+      so make more steps
+    five-sections 2: your search stops too early. Each step leaves 0.618 of the
+      interval, so make more steps
     """
     R = T_world_box[:3, :3]
     t = T_world_box[:3, 3]

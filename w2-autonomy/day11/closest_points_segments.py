@@ -96,7 +96,7 @@ def _(a0, a1, b0, b1):
     end-pairs 2: your code uses the end of the first segment that is nearest to the
       second segment. The closest point can lie between the ends
     w-sign: your vector w has the wrong sign. It should run from b0 to a0, w = a0 - b0
-    d-and-e-swapped: your code swaps d and e. The number d is u . w, and e is v . w
+    d-and-e-swapped: your code swaps d and e. The products are d = u . w and e = v . w
     numerator-sign: your numerator for s has the wrong sign. The parameter s should be
       (b e - c d) / (a c - b b)
     b-sign: your b has the wrong sign. At the minimum, a s - b t + d = 0 and b s - c t +
@@ -385,8 +385,9 @@ def rounds(n, start):
 
 
 FEW = (
-    "your code alternates between t and s, but it stops after too few iterations. Each "
-    "iteration only approaches the minimum"
+    "your code alternates between t and s, but it stops after too few iterations. One "
+    "iteration is enough if you start with the s of the infinite lines, clamped to "
+    "[0, 1]"
 )
 for n in (2, 3, 4, 5, 10):
     for start in (0.0, 0.5):

@@ -284,7 +284,8 @@ def _(H, f, lo, hi, x):
     diagonal-hessian 2: your code divides the gradient by the diagonal of H. Solve with
       the rows and columns of H for the free entries
     gradient-steps 3: your result is x after 1,000 clamped gradient steps. They have not
-      converged if the condition number of H is large, as in task 13.6
+      converged if the condition number of H is large, as in task 13.6, so solve for the
+      free entries instead
     one-gradient-step: your result is x after one clamped gradient step, which is not
       the minimum. Repeat the steps until x no longer changes, or solve for the free
       entries

@@ -97,8 +97,8 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       each step
     Vxx-not-passed-on: your code uses Vxx of the final cost in every step. Update Vxx in
       each step
-    V-signs: your `Vx` and `Vxx` are Qx - Qux^T k and Qxx - Qux^T K. The minus sign is
-      already in k and K
+    V-signs: your `Vx` and `Vxx` subtract Qux^T k and Qux^T K. Add these terms, because
+      k and K already contain the minus sign
     nothing-saved: your `Vx` and `Vxx` are Qx and Qxx. Add the terms with the gains,
       which reduce the cost
     drop-last-step: your `drop` contains the values of only one step. Sum the values
@@ -116,10 +116,12 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       entries separately
     drop-quadratic-sign: the second entry of your `drop` has the wrong sign. It should
       be the sum of k . Quu k / 2, which raises the cost if Quu is positive definite
-    gain-signs: your k and K have the wrong sign. The input changes by du = k + K dx
+    gain-signs: your k and K have the wrong sign. The input changes by du = k + K dx, so
+      both contain a minus sign
     K-sign: your K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x in
       the LQR
-    gain-signs 2: your k and K have the wrong sign. The input changes by du = k + K dx
+    gain-signs 2: your k and K have the wrong sign. The input changes by du = k + K dx,
+      so both contain a minus sign
     K-sign 2: your K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x
       in the LQR
     diagonal-of-Quu: your gains use only the diagonal of Quu. Solve with the whole

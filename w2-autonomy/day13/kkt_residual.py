@@ -48,7 +48,7 @@ def _(H, f, lo, hi, x):
     not-compared: your result is the clamped point itself. Return the largest absolute
       difference between x and this point
     free-only: your code uses only the entries that are between their bounds. An entry
-      at a bound also contributes if the negative gradient points away from the bound
+      at a bound also contributes if its negative gradient points into the box
     lower-only: your code clamps the step only at the lower bounds. Clamp it at the
       upper bounds too
     upper-only: your code clamps the step only at the upper bounds. Clamp it at the

@@ -101,15 +101,15 @@ def _(M, stiffness, damping, h):
     damping-not-divided: your code does not divide the damping by the mass, and the
       damping acts on the old velocity. In MuJoCo the new velocity is (M + h D)^-1 M v
       => both
-    B-not-divided: your B omits the factor (M + h D)^-1. The input is a torque and not
-      an acceleration, so multiply it by this factor
+    B-not-divided: your B omits the factor (M + h D)^-1. Multiply the input by this
+      factor, because the input is a torque and not an acceleration
     B-halved-below: your code halves the lower half of B. The torque acts for the whole
-      step
+      step, so omit the factor 1/2
     B-without-damping: your B uses M^-1 without the damping. Use (M + h D)^-1
     slope-halved-above: your code halves the stiffness in the upper left block of A. The
-      new velocity moves the joints for the whole step
+      new velocity moves the joints for the whole step, so omit the factor 1/2
     B-halved-above: your code halves the upper half of B. The new velocity moves the
-      joints for the whole step
+      joints for the whole step, so omit the factor 1/2
     upper-right-h: the upper right block of your A is h times the identity matrix. The
       joints move by h times the new velocity, (M + h D)^-1 M v
     upper-without-h: your code omits h in the upper half of A. The joints move by h

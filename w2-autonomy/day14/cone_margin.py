@@ -38,7 +38,7 @@ def _(force, normal, mu):
     one-length-for-all: your code takes one norm of the tangential forces of all
       contacts together. Take the norm of each contact's force, with axis=1
     mu-is-an-angle: your code uses mu as the angle of the cone. The coefficient of
-      friction is already the tangent of that angle
+      friction is already the tangent of this angle, so use mu itself
     normal-is-z 3: your code uses the z component of the force as f_n. The normal force
       is the component along the contact's own normal
     normal-is-z: your code uses the normal (0, 0, 1) for every contact. Each contact has

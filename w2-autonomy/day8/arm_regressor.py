@@ -77,8 +77,8 @@ for slug, says, other in (
     ("bracket-forgotten", "your `A` omits the term ad(V) S qd. This term is needed "
                           "because the preceding joints move the axis of joint i",
                           {"bracket": 0.0}),
-    ("bracket-sign", "your `A` contains ad(S) V qd instead of ad(V) S qd. The two "
-                     "terms have opposite signs",
+    ("bracket-sign", "your `A` contains ad(S) V qd, which is the negative of ad(V) S "
+                     "qd. Use ad(V) S qd",
      {"bracket": -1.0}),
     ("pose-not-inverted", "your code transforms V and A with Ad(T). Use Ad(T^-1), "
                           "which maps from the world frame to the link frame",
@@ -87,9 +87,9 @@ for slug, says, other in (
                         "-R^T [p], which moves the reference point of V and A to the "
                         "link's origin",
      {"into": lambda T: np.kron(np.eye(2), T[:3, :3].T)}),
-    ("in-world-axes", "your code does not transform V and A into the link frame. The "
-                      "parameters of a link are expressed in its own frame, about "
-                      "its origin",
+    ("in-world-axes", "your code does not transform V and A into the link frame. "
+                      "Transform both, because the parameters of a link are expressed "
+                      "in its own frame, about its origin",
      {"into": lambda T: np.eye(6)}),
     ("wrench-back-with-the-inverse", "your code transforms the wrench back with "
                                      "X^-1, as if it were a twist. A wrench "
@@ -119,8 +119,9 @@ for slug, says, other in (
                       {"felt": lambda i: slice(i, i + 1)}),
     ("last-link-missing", "your columns for the last link are 0. Does your loop end "
                           "one link too early?", {"links": 6}),
-    ("pose-of-the-link-before", "your code uses the pose of the previous link for "
-                                "each link. T_links[0] is the pose of link1",
+    ("pose-of-the-link-before", "for each link, your code uses the pose of the "
+                                "previous link. T_links[0] is already the pose of "
+                                "link1",
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
     ("pose-on-the-link-before", "your code uses the pose of each link relative to the "
      "previous link. T_links contains poses relative to the world, so use them "

@@ -47,7 +47,7 @@ def _(Y, tau, Y_new, rtol):
     sigma-by-s-squared: your sigma contains the factor S^-2. This factor belongs to the
       variance y V S^-2 V^T y^T, and sigma is the square root of the variance
     sigma-with-V: your sigma uses V^T instead of V. The third result of numpy.linalg.svd
-      is V^T
+      is V^T, so transpose it
     sigma-cut-not-squared: for sigma, your code compares the eigenvalues of Y^T Y with
       rtol times the largest one. These eigenvalues are the squares of the singular
       values, so use rtol^2

@@ -126,7 +126,7 @@ def _(Y, tau, rtol):
     cut-by-rows: your function multiplies rtol by the number of rows, as NumPy does with
       its default tolerance. Compare the singular values with rtol times the largest one
     V-for-its-transpose: your code uses V^T instead of V. The third result of
-      numpy.linalg.svd is V^T
+      numpy.linalg.svd is V^T, so transpose it
     cut-not-squared: your code compares the eigenvalues of Y^T Y with rtol times the
       largest one. These eigenvalues are the squares of the singular values, so compare
       them with rtol^2 times the largest one

@@ -36,8 +36,9 @@ def correlation(
 
 AS_IT_IS = {"above": lambda y: y}
 for slug, says, other in (
-    ("mean-not-taken-off", "your code does not subtract the mean. With a constant "
-                           "offset, neighbours would seem to be correlated",
+    ("mean-not-taken-off", "your code does not subtract the mean. Subtract the mean "
+                           "first, because with a constant offset neighbours seem to "
+                           "be correlated",
      {**AS_IT_IS, "below": lambda y: y}),
     ("mean-left-in-the-products", "your code subtracts the mean before it computes "
                                   "the squares, but not before it computes the "

@@ -46,8 +46,9 @@ def filtered(
 
 
 for slug, says, other in (
-    ("rc-share", "your alpha is dt / (dt + RC) with RC = 1 / (2 pi cutoff). It "
-                 "approximates 1 - exp(-dt / RC) only for low cutoff frequencies",
+    ("rc-share", "your alpha is dt / (dt + RC) with RC = 1 / (2 pi cutoff). Use 1 - "
+                 "exp(-dt / RC), because your formula is accurate only for low cutoff "
+                 "frequencies",
      {"alpha": lambda x: x / (1 + x)}),
     ("share-turned-round", "your code swaps alpha and 1 - alpha. The new sample should "
                            "get the weight alpha",

@@ -37,7 +37,7 @@ def _(rng):
 
 @row.wrongs
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
-    """gravity-sign: your code uses `gravity` with the wrong sign. The argument is the
+    """gravity-sign: your code adds `gravity`. Subtract it, because the argument is the
       torque that holds the arm, and the weight acts in the opposite direction
     residual-without-dt: your code adds the old residual to the integral without the
       factor dt. Multiply the residual by dt, because the integral is a momentum and the

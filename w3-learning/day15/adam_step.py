@@ -55,7 +55,7 @@ def _(theta, grad, m, v, k, rate):
     betas-swapped: your code swaps the decay rates. The rate of m is 0.9, and the rate
       of v is 0.999
     weights-swapped: your code gives the gradient the weight 0.9 and its square the
-      weight 0.999. These weights belong to the old averages m and v
+      weight 0.999. Give these weights to the old averages m and v
     weight-1: your code gives the gradient and its square the weight 1. In Adam the
       weights are 0.1 and 0.001, so that m and v are averages
     times-for-power: your code divides the averages by 1 - 0.9 k and 1 - 0.999 k. Raise

@@ -32,9 +32,9 @@ def _(x):
     about-0: your second row is the root mean square. Subtract the mean first, so that
       the result is the standard deviation
     one-for-all: your code uses one mean and one standard deviation for all columns.
-      Each column has its own unit and its own scale
+      Each column has its own unit and its own scale, so use axis=0
     spread-for-all: your code uses one standard deviation for all columns. Each column
-      has its own unit and its own scale
+      has its own unit and its own scale, so use axis=0
     variance: your second row is the variance. Take its square root
     deviation: your second row is the mean absolute deviation. Take the root of the mean
       squared deviation
@@ -45,9 +45,9 @@ def _(x):
     about-0 2: your second row is the root mean square. Subtract the mean first, so that
       the result is the standard deviation
     one-for-all 2: your code uses one mean and one standard deviation for all columns.
-      Each column has its own unit and its own scale
+      Each column has its own unit and its own scale, so use axis=0
     spread-for-all 2: your code uses one standard deviation for all columns. Each column
-      has its own unit and its own scale
+      has its own unit and its own scale, so use axis=0
     """
     mean = x.mean(axis=0)
     std = x.std(axis=0)

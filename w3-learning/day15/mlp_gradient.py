@@ -78,9 +78,9 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
     slope-not-passed-on: your gradients of W1 and b1 lack the derivative of the second
       tanh. Multiply by 1 - h^2 before you go back to the first layer
     tanh-at-the-end: your code applies tanh to the output. The last layer of `mlp` is
-      linear
+      linear, so omit this tanh
     tanh-at-the-end 2: your code applies tanh to the output and multiplies by its
-      derivative. The last layer of `mlp` is linear
+      derivative. The last layer of `mlp` is linear, so omit both
     divided-twice: your code divides every gradient by the number of rows a second time.
       The gradient of the loss already contains the factor 1 / (n m), so sum over the
       rows
