@@ -360,8 +360,8 @@ def least_angle(share):
 
 
 ALIKE = (
-    "your code treats segments that differ by a few degrees as parallel, but they have "
-    "a single closest pair"
+    "your code treats segments that differ by a few degrees as parallel. They have a "
+    "single closest pair, so use a much smaller limit for a c - b b"
 )
 SELDOM = "hardly a pair in a run is so nearly parallel"
 row.wrong("nearly-parallel", hidden=SELDOM)(least_angle(1e-3))

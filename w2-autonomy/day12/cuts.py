@@ -96,10 +96,10 @@ OPTIONS = [
                           "Remove them only if this edge is free",
            {"check": lambda a, b, world: True}),
     Option("hit-for-free", "your code inverts the test, so it applies shortcuts that "
-                           "are blocked",
+                           "are blocked. Apply a shortcut if its edge is free",
            {"check": lambda a, b, world: not edge_free(a, b, world)}),
     Option("only-the-ends-checked", "your code tests only the two points. Test the "
-                                    "edge between them", {"check": _ends_free}),
+                                    "edge between these points", {"check": _ends_free}),
     Option("middle-checked", "your code tests only the midpoint of the edge. Test "
                              "the whole edge",
            {"check": _middle_free}),

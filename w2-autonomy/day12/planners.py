@@ -163,10 +163,10 @@ def one_tree(
 
 OPTIONS = [
     Option("swap-when-it-grew", "your code swaps the trees only after a sample that "
-                                "made a tree grow. Swap them after every sample",
+                                "made a tree grow. Swap the trees after every sample",
            {"turn": "grew"}),
     Option("swap-when-it-failed", "your code swaps the trees only after a blocked "
-                                  "sample. Swap them after every sample",
+                                  "sample. Swap the trees after every sample",
            {"turn": "failed"}),
     Option("trees-not-swapped", "your code extends the start's tree with every "
                                 "sample. Samples 1, 3, 5 and so on should extend the "
@@ -263,7 +263,7 @@ OPTIONS = [
                                    "end one sample too early?",
            {"used": lambda some: some[:-1]}),
     Option("not-turned-round", "the start's branch of your path runs from the newest "
-                               "node to the root. Reverse it",
+                               "node to the root. Reverse this branch",
            {"joined": lambda a, b: a + b[1:]}),
     Option("goal-branch-turned", "your code reverses the goal's branch, but this "
                                  "branch already runs from the meeting point to the "

@@ -62,7 +62,7 @@ def _(theta, grad, m, v, k, rate):
       the decay rates to the power k instead
     old-averages: your update uses m and v from before this step. Update m and v first
     corrections-swapped: your code divides m by 1 - 0.999^k and v by 1 - 0.9^k. Swap the
-      two, because the decay rate of m is 0.9
+      two corrections, because the decay rate of m is 0.9
     """
     m1 = 0.9 * m + 0.1 * grad
     v1 = 0.999 * v + 0.001 * grad**2
