@@ -279,7 +279,7 @@ def test_a_name_that_the_row_finds_is_not_followed_by_a_slip():
         return x
 
     says = told(8, "8.6", truncated_svd_fit=truncated_svd_fit)
-    assert says.startswith("Too few singular values are counted in 14 of 14 calls")
+    assert says.startswith("Your code counts too few singular values in 14 of 14")
     assert "gives the same output" not in says
 
 
