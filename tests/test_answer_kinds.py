@@ -60,7 +60,11 @@ class TestAnIndex:
                 "0; expected an index, a whole number. Only a whole number can index "
                 "an array, so convert the result with int(...).",
             ),
-            (lambda x, at: x, "shape", "returns shape (3,); expected an index"),
+            (
+                lambda x, at: x,
+                "shape",
+                "returns an array of shape (3,); expected an index",
+            ),
             (lambda x, at: "first", "not-an-array", "returns 'first'; expected"),
             (
                 lambda x, at: int(np.argmin(np.abs(x - at))) - len(x),

@@ -92,7 +92,7 @@ class TestSizes:
         assert verdict(lambda x: -np.cumsum(x)).mistake == "all-signs"
         short = verdict(lambda x: np.cumsum(x)[:-1])
         assert short.mistake == "shape"
-        assert "returns a wrong shape in 4 of 4 calls." in short.message
+        assert "returns an array of the wrong shape in 4 of 4 calls." in short.message
         assert verdict(lambda x: np.cumsum(x)[None]).mistake == "shape"
 
     def test_a_mistake_is_made_again_in_every_size(self):
@@ -178,7 +178,7 @@ ONE_EACH = np.arange(8) == np.arange(6)[:, None]
         (MASKS, "", ""),
         (MASKS.astype(int), "", ""),
         (~MASKS, "inverted", "our code swaps True and False"),
-        (np.ones_like(MASKS), "ignores-its-input", "does not depend on the input"),
+        (np.ones_like(MASKS), "ignores-its-input", "the same for every input"),
         (MASKS | ONE_EACH, "too-often-true", "returned True in 3 cases where"),
         (MASKS & ~ONE_EACH, "too-seldom-true", "Your function returned False"),
         (

@@ -298,7 +298,7 @@ def test_a_result_in_another_unit_is_not_explained_by_an_argument():
 
     says = told(7, "7.9", max_cube_mass=max_cube_mass)
     assert says.startswith("The result is 1000 times the correct value")
-    assert "Is it in another unit? The function should return kg." in says
+    assert "Is your result in another unit? The function should return kg." in says
     assert "grip" not in says.partition("max_cube_mass(")[0]
 
 

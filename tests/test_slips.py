@@ -262,7 +262,7 @@ def test_a_change_that_no_line_of_the_file_has_is_told_of_the_correct_formula():
 
     says = judged(4, "4.2", link_inertias).message
     assert says.startswith(
-        "Your output equals the correct formula with one change: a bracket "
+        "Your code gives the result of the correct formula with one change: a bracket "
     )
 
 

@@ -48,10 +48,10 @@ GENERAL = _mistakes(
     """
     all-signs: every sign of your result is wrong
     whole-numbers: your values are truncated to whole numbers, because your array has an
-      integer dtype. Create the array with floats
+      integer dtype. Create an array of floats instead
     transposed: your matrix is transposed
-    reshaped: your code reshapes the array where it should transpose it. Only .T turns
-      rows into columns
+    reshaped: your code reshapes the array instead of transposing it. Only .T turns rows
+      into columns
     rows-swapped: your rows are in the order (v; omega). The rows of omega should come
       first
     inverse: your result is the inverse, the information matrix. It should be the
@@ -64,8 +64,8 @@ GENERAL = _mistakes(
     counted-from-one: your index is counted from 1. It should be counted from 0
     one-too-small: your index is one too small
     inverted: your code swaps True and False
-    row-first: your code puts the row first. A pixel is (column, row), so x comes before
-      y
+    row-first: your code puts the row first. A pixel is (x, y), so the column comes
+      first
     """,
     {
         "all-signs": np.negative,
@@ -94,7 +94,7 @@ def general(*slugs: str, **words: Any) -> list[Mistake]:
 OF_A_ROTATION = [
     *_mistakes(
         """
-        R-transposed: your matrix is transposed, so it rotates in the opposite sense
+        R-transposed: your matrix is transposed, so it rotates in the opposite direction
         left-handed: your third axis is reversed, so the frame is left-handed (det R =
           -1)
         all-signs: every entry of your matrix has the wrong sign
@@ -140,7 +140,7 @@ _OF_A_POSE = _mistakes(
 )
 
 
-def of_a_pose(wrong_way: str = "rotates in the opposite sense") -> list[Mistake]:
+def of_a_pose(wrong_way: str = "rotates in the opposite direction") -> list[Mistake]:
     """Return mistakes made with a finished pose.
 
     Args:
