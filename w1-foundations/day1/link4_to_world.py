@@ -27,7 +27,7 @@ for k in (1, 2, 3):
 for k, end in enumerate(("link5", "link6", "link7", "the end effector"), start=5):
     row.wrong(
         "too-long",
-        f"your chain continues to {end}. It should end at link4",
+        f"your chain continues to {end}. The chain should end at link4",
     )(lambda model, q, k=k: fk(model, q, PATH[: k + 1]))
 
 row.reached_by(

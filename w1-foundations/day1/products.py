@@ -55,8 +55,8 @@ def on_each_other(model, q, path=PATH):
       file without rotating them. Each offset is expressed in the rotated frame of its
       parent
     point-with-w-0: your rotation is correct, but your code only rotates the offset of
-      `attachment` and omits the translation before it. A point needs 1, not 0, as its
-      fourth coordinate
+      `attachment` and omits the translation before this offset. A point has 1, not 0,
+      as its fourth coordinate
     inertial-frames: your code uses `ipos` and `iquat`, which describe a body's inertial
       frame. Use `pos` and `quat`, which describe the body frame
     inertial-turns: your code uses `iquat`, the orientation of a body's inertial frame.
@@ -95,7 +95,8 @@ def inertial(model, q, path, place):
 
 def offset_turned_too_late(model, q, path=PATH):
     """your rotation is correct, but your code updates the rotation before it adds the
-    link's offset. Add the offset first, rotated by the previous rotation"""
+    link's offset. Add the offset first, multiplied by the rotation before this
+    update"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         R = R @ L[:3, :3] @ J[:3, :3]
