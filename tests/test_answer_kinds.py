@@ -52,7 +52,7 @@ class TestAnIndex:
             (
                 lambda x, at: int(np.argmin(np.abs(x - at))) + 1,
                 "counted-from-one",
-                "Your index is counted from 1. It should be counted from 0.",
+                "Your index is counted from 1 instead of 0.",
             ),
             (
                 lambda x, at: float(np.argmin(np.abs(x - at))),

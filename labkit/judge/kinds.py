@@ -114,7 +114,8 @@ class Kind:
 
     def _misfit(self, got: tuple[int, ...], values: Sequence[Any]) -> Finding:
         expected = self.expected
-        if None not in self.shape and str(self.shape) not in expected:
+        told = str(self.shape), "x".join(map(str, self.shape))
+        if None not in self.shape and not any(one in expected for one in told):
             expected += f", shape {self.shape}"
         if reason := self.why_shape(got):
             expected += f": {reason}"
