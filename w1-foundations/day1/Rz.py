@@ -62,9 +62,9 @@ def _(theta):
 
 
 for axis, about in (("x", se3.Rx), ("y", se3.Ry)):
-    says = f"your rotation is about {axis}. It should be about z"
+    says = f"your code rotates about {axis} instead of z"
     row.wrong(f"turns-about-{axis}", says)(about)
-    says = f"your rotation is about -{axis}. It should be about z"
+    says = f"your code rotates about -{axis} instead of z"
     row.wrong(f"turns-about-{axis}", says)(lambda theta, about=about: about(-theta))
 
 

@@ -51,6 +51,6 @@ def _(model, q):
 
 @row.wrong
 def starts_late(model, q):
-    """your chain starts at link3. It should start at link0, because the file gives the
-    `pos` and `quat` of link3 relative to link2"""
+    """your chain starts at link3. The chain should start at link0, because the file
+    gives the `pos` and `quat` of link3 relative to link2"""
     return fk(model, q, PATH[3:5])

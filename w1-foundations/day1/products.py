@@ -48,7 +48,7 @@ def on_each_other(model, q, path=PATH):
     """last-step-in-the-world: your code adds the offset of `attachment` along the world
       axes, but this offset is expressed in the frame of the previous body
     last-step-on-the-left: your code multiplies the transform of `attachment` on the
-      left, which moves the whole arm. Multiply it on the right
+      left, which moves the whole arm. Multiply this transform on the right
     local-taken-for-world: your code uses the `pos` and `quat` of `attachment` as its
       pose in the world, but both are relative to the parent body
     offsets-summed: your rotation is correct, but your code adds the offsets from the

@@ -65,11 +65,11 @@ HALVES = {
     "left-translation-lost": "your code omits the translation of the left factor",
     "right-translation-lost": "your code omits the translation of the right factor",
     "turned-backwards": "your code multiplies the right factor's translation by the "
-    "transpose of R. Multiply it by R itself",
+    "transpose of R. Use R itself",
     "wrong-vector-turned": "your code rotates the left factor's own translation "
     "instead of the right factor's translation",
-    "wrong-rotation": "your code rotates the right factor's translation by its own R. "
-    "Rotate it by the left factor's R",
+    "wrong-rotation": "your code rotates the right factor's translation by the right "
+    "factor's R. Use the left factor's R",
     "both-turned": "your code rotates the translations of both factors. Do not rotate "
     "the translation of the left factor",
     "subtracted": "your code subtracts the left factor's translation instead of "
