@@ -190,7 +190,7 @@ def _(R):
       factor is 0 / 0 for the identity matrix, and near pi it amplifies the rounding
       errors
     nan-at-0: your result for the identity matrix is NaN, because your code divides by
-      the sine of the angle, which is 0
+      sin(0) = 0
     arccosine-beyond-1: your result is NaN where rounding makes (trace - 1) / 2 larger
       than 1 or smaller than -1. Use atan2, which accepts all values
     """

@@ -65,7 +65,7 @@ def _(screws, M, T_goal, q_start, limits):
       each step
     jacobian-never-updated: your code computes the Jacobian only at the start, but the
       Jacobian changes with every step
-    q-start-unused: your loop starts from READY_Q. It should start from `q_start`
+    q-start-unused: your loop starts from READY_Q instead of `q_start`
     """
     J = at_hand(space_jacobian(screws, q_start), fk_space(screws, M, q_start))
     parts = {
@@ -100,7 +100,7 @@ def limits_at_the_end(screws, M, T_goal, q_start, limits):
 
 @row.wrong
 def q_start_unused(screws, M, T_goal, q_start, limits):
-    """your loop starts from q = 0. It should start from `q_start`"""
+    """your loop starts from q = 0 instead of `q_start`"""
     return walk(screws, M, T_goal, np.zeros(7), limits)
 
 
