@@ -66,9 +66,10 @@ def _(J, masses, coms_world, g):
     own-link-left-out: each torque in your code includes only the links after the
       joint's own link, but the joint also carries its own link
     link-before-too: each torque in your code also includes the link before the joint,
-      which does not move with the joint
+      but this link does not move with the joint
     links-on-the-wrong-side: each torque in your code includes the links before the
-      joint, which do not move with the joint. Use the links after the joint instead
+      joint, but these links do not move with the joint. Use the links after the joint
+      instead
     """
     joint = np.arange(7)
     link = np.arange(7)[:, None]

@@ -44,7 +44,7 @@ def cut(J, G, armature):
     """columns-not-cut: your Jacobian of each link contains all columns, but the joints
       after a link do not move this link
     own-joint-left-out: your Jacobian of each link lacks the column of the link's own
-      joint, which also moves the link
+      joint, but this joint also moves the link
     next-joint-too: your Jacobian of each link contains one column too many, because the
       next joint does not move the link
     columns-cut-on-the-wrong-side: your Jacobian of each link lacks the columns of the
