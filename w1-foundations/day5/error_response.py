@@ -98,8 +98,8 @@ def _(t, omega, zeta):
 @row.wrongs(hidden=HIDDEN)
 def _(t, omega, zeta):
     """window-around-one: your code also uses the formula for zeta = 1 for values of
-      zeta near 1, where it is not accurate. Use this formula only if zeta equals 1 up
-      to rounding, for example within 1e-9
+      zeta near 1, where this formula is not accurate. Use the formula only if zeta
+      equals 1 up to rounding, for example within 1e-9
     time-from-the-first: your code measures time from t[0]. The error should be 1 at t =
       0, even if t does not contain 0
     first-entry-one: your first entry is always 1. The error should be 1 only at t = 0
