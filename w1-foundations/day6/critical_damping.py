@@ -60,8 +60,8 @@ def _(K, Lambda):
       square root of the mass
     root-of-the-product: your code computes 2 sqrt(K Lambda) entry by entry. Use the
       matrix square root of Lambda
-    cholesky: your code uses a Cholesky factor L instead of the square root, but Lambda
-      equals L L^T, not L L
+    cholesky: your code uses a Cholesky factor L instead of the matrix square root, but
+      Lambda equals L L^T, not L L
     """
     k = np.sqrt(K)
     half = root(Lambda)
@@ -88,8 +88,8 @@ def _(K, Lambda):
       the eigenvectors, so the square root is V diag(sqrt(values)) V^T
     eigenvalues-not-rooted-back: your square root diag(sqrt(values)) is expressed in the
       basis of the eigenvectors. Transform the square root back with V
-    cholesky: your code uses a Cholesky factor L instead of the square root, but Lambda
-      equals L L^T, not L L
+    cholesky: your code uses a Cholesky factor L instead of the matrix square root, but
+      Lambda equals L L^T, not L L
     entries-square-rooted 2: your code takes the root of the absolute value of each
       entry, but the matrix square root X satisfies X X = Lambda
     eigenvectors-transposed 2: your code omits the last transpose. The square root is V
