@@ -63,10 +63,10 @@ def _(T0, T1, s):
       computes the nearest rotation matrix, so the angular velocity is not constant
     nlerp: your code interpolates the quaternions linearly and normalises the result, so
       the angular velocity varies
-    turn-in-world-axes: your rotation R1 R0^T is expressed in the world frame, so it
-      should multiply R0 from the left, not from the right
-    turn-on-the-left: your rotation R0^T R1 is expressed in the first frame, so it
-      should multiply R0 from the right, not from the left
+    turn-in-world-axes: your rotation R1 R0^T is expressed in the world frame. Multiply
+      R0 by this rotation from the left, not from the right
+    turn-on-the-left: your rotation R0^T R1 is expressed in the first frame. Multiply R0
+      by this rotation from the right, not from the left
     turn-backwards: your rotation is in the opposite direction, because R1^T R0 is the
       rotation from R1 to R0
     logarithms-mixed: your code interpolates the rotation vectors of R0 and R1 linearly,
