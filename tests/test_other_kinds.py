@@ -281,3 +281,21 @@ def test_a_mask_is_inverted_only_where_it_is_so_at_fresh_inputs_too():
     main = [exchange.question.args[0] for exchange in round_of(ask).main]
     assert verdict(lambda x: x <= 0.0) == "inverted"
     assert verdict(lambda x: (x > 0.0) != (x in main)) != "inverted"
+
+
+@pytest.mark.parametrize(
+    ("names", "says"),
+    [
+        (("kp", "kd", "ki"), "except the entry for kd. "),
+        (("the mass", "the height", "the width"), "except the height. "),
+    ],
+)
+def test_an_entry_is_named(names, says):
+    right = np.arange(1.0, 13.0).reshape(4, 3) ** 2
+    verdict = told(Vector((3,), names=names), right, right + [0.0, 1.0, 0.0] * right)
+    assert says in verdict.message
+
+
+def test_a_number_for_a_vector_is_called_a_number():
+    verdict = told(Vector((3,)), np.ones((4, 3)), np.ones(4))
+    assert "returns a single number; expected a vector of 3" in verdict.message

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from test_claims import right, told
 
-from labkit.judge import Count, Mask, Pose, Scalar, Vector
+from labkit.judge import Count, Mask, Pose, Scalar, Vector, pairs
 from labkit.judge.answers import as_clause, say_number
 from labkit.judge.matcher import Matcher
 from labkit.judge.mistake import Mistake
@@ -333,3 +333,8 @@ def test_a_message_of_one_of_several_functions_goes_on_in_its_sentence():
     assert as_clause("A is transposed.") == "A is transposed."
     assert as_clause("R is transposed.") == "R is transposed."
     assert as_clause("NumPy stops.") == "NumPy stops."
+
+
+def test_two_mistakes_leave_no_part_correct():
+    said = "your rotation is correct, but your translation is -t"
+    assert pairs._BUT.sub("", said) == "your translation is -t"

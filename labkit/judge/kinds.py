@@ -261,7 +261,7 @@ class Vector(Kind):
         return Finding("few-entries-off", says)
 
 
-def _entries(names: Sequence[str], counted: Sequence[str], at: Sequence[int]) -> str:
+def _entries(names: Sequence[str], counted: Sequence[str], at: Any) -> str:
     """Return entries of a vector in words: "the entry for joint1", "the mass"."""
     if not names:
         return " and ".join(counted[i] for i in at)

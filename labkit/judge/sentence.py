@@ -199,7 +199,7 @@ def _of_an_expression(
 
 def _size(new: ast.expr) -> str:
     """Return "twice" of 2.0 * x, "half" of 0.5 * x, or ""."""
-    factor = getattr(getattr(new, "left", None), "value", None)
+    factor: Any = getattr(getattr(new, "left", None), "value", None)
     product = isinstance(getattr(new, "op", None), ast.Mult)
     return {2.0: "twice", 0.5: "half"}.get(factor, "") if product else ""
 

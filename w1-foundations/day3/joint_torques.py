@@ -33,8 +33,9 @@ def _(J_space, p, F):
     force-forgotten: your code omits the force, whose power is force . v
     arm-the-wrong-way: your moment of the force about the origin is f x p. The moment
       should be p x f
-    arm-twice: your code adds p x f to the moment and uses the Jacobian of the point p.
-      Each of the two converts the moment, so use only one of them => both
+    arm-twice: your code adds p x f to the moment, as for J_space, and also uses the
+      Jacobian of the point p. Use J_space with this sum, or the Jacobian of p with the
+      given moment => both
     """
     J = site_jacobian(J_space, p)
     moment = F[:3]
