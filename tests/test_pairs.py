@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from test_claims import right, told
 
-from labkit.judge import Count, Mask, Pose, Scalar, Vector
+from labkit.judge import Count, Mask, Pose, Scalar, Vector, pairs
 from labkit.judge.answers import as_clause, say_number
 from labkit.judge.matcher import Matcher
 from labkit.judge.mistake import Mistake
@@ -298,7 +298,7 @@ def test_a_result_in_another_unit_is_not_explained_by_an_argument():
 
     says = told(7, "7.9", max_cube_mass=max_cube_mass)
     assert says.startswith("The result is 1000 times the correct value")
-    assert "Is it in another unit? The function should return kg." in says
+    assert "Is your result in another unit? The function should return kg." in says
     assert "grip" not in says.partition("max_cube_mass(")[0]
 
 
@@ -333,3 +333,8 @@ def test_a_message_of_one_of_several_functions_goes_on_in_its_sentence():
     assert as_clause("A is transposed.") == "A is transposed."
     assert as_clause("R is transposed.") == "R is transposed."
     assert as_clause("NumPy stops.") == "NumPy stops."
+
+
+def test_two_mistakes_leave_no_part_correct():
+    said = "your rotation is correct, but your translation is -t"
+    assert pairs._BUT.sub("", said) == "your translation is -t"
