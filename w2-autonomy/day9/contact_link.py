@@ -87,12 +87,12 @@ def _(residual, threshold):
     last-of-none: your function returns 7 if no joint is over its threshold. Return 0
     from-the-tip: your code counts the joints from the tip. Count the joints from the
       base, where joint1 has the number 1
-    until-one-does-not: your search stops at the first joint under its threshold, but a
-      later joint may be over its threshold
-    largest-threshold: your code compares every joint with the largest threshold, but
-      each joint has its own threshold
-    smallest-threshold: your code compares every joint with the smallest threshold, but
-      each joint has its own threshold
+    until-one-does-not: your search stops at the first joint under its threshold. Test
+      all joints, because a later joint may be over its threshold
+    largest-threshold: your code compares every joint with the largest threshold.
+      Compare each joint with its own threshold
+    smallest-threshold: your code compares every joint with the smallest threshold.
+      Compare each joint with its own threshold
     last-joint-decides: your result is 7 if joint 7 is over its threshold, and otherwise
       0. Does your loop overwrite an earlier result?
     last-joint-left-out: your code omits joint 7. Does your loop end one joint too

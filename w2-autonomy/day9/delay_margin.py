@@ -26,11 +26,11 @@ def margin(
 
 
 for slug, says, other in (
-    ("at-omega", "your w is sqrt(kp), the crossover frequency of the proportional term "
-                 "alone. The derivative term increases the amplitude, so w should be "
-                 "larger", {"w": lambda kp, kd: np.sqrt(kp)}),
-    ("at-kd", "your w is kd, the crossover frequency of the derivative term alone. The "
-              "proportional term increases the amplitude, so w should be larger",
+    ("at-omega", "your w is sqrt(kp), the crossover frequency of the proportional "
+                 "term alone. Include the derivative term: solve w^4 = kp^2 + kd^2 "
+                 "w^2 for w", {"w": lambda kp, kd: np.sqrt(kp)}),
+    ("at-kd", "your w is kd, the crossover frequency of the derivative term alone. "
+              "Include the proportional term: solve w^4 = kp^2 + kd^2 w^2 for w",
      {"w": lambda kp, kd: kd}),
     ("strengths-added", "your w^2 is kp + kd^2. At the crossover frequency, w^2 = "
                         "sqrt(kp^2 + kd^2 w^2), because the two terms differ in phase "
@@ -48,8 +48,8 @@ for slug, says, other in (
                         "squares. The unknown of the quadratic equation is w^2, so "
                         "the formula contains kd^2, kd^4 and kp^2",
      {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**2 + 4 * kp)) / 2)}),
-    ("inverted", "your code inverts the fraction in atan. The phase lead should be 0 "
-                 "if there is no derivative term (kd = 0)",
+    ("inverted", "your code inverts the fraction in atan. The phase lead is atan(kd w "
+                 "/ kp), which is 0 without a derivative term (kd = 0)",
      {"angle": lambda kp, kd, w: np.arctan(kp / (kd * w))}),
     ("from-the-far-side", "your angle is pi minus the phase lead. The phase margin is "
                           "measured from -180 degrees, so it is the phase lead itself",
@@ -64,9 +64,11 @@ for slug, says, other in (
 @row.wrongs
 def _(kp, kd):
     """critical-only: your result is 0.6474 / sqrt(kp), which is the delay margin only
-      for critical damping. Use the phase lead and the crossover frequency
+      for critical damping. For any damping, divide the phase lead atan(kd w / kp) by
+      the crossover frequency w
     damper-alone: your result is pi / (2 kd), the delay margin without a proportional
-      term. The gain kp changes both the phase lead and the crossover frequency
+      term. Include kp both in the phase lead atan(kd w / kp) and in the crossover
+      frequency w
     """
     return {"critical-only": 0.6474 / np.sqrt(kp), "damper-alone": np.pi / 2 / kd}
 

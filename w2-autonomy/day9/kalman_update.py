@@ -95,23 +95,25 @@ for slug, says, other in (
     ("x-by-the-reading", "your code multiplies K by the reading z. Multiply K by the "
                          "innovation z - H x",
                          {"new_x": lambda x, K, y, z, H: x + K @ z}),
-    ("nis-with-R", "your NIS uses R^-1. The innovation also contains the error of x, "
-                   "so use S^-1",
+    ("nis-with-R", "your code computes the NIS with R^-1. The innovation also "
+                   "contains the error of x, so use S^-1 instead",
      {"nis": lambda y, S, known: weighed(y, known[2])}),
-    ("nis-without-R", "your NIS uses (H P H^T)^-1. The innovation also contains the "
-                      "noise of the reading, so use S^-1",
+    ("nis-without-R", "your code computes the NIS with (H P H^T)^-1. The innovation "
+                      "also contains the noise of the reading, so use S^-1 instead",
      {"nis": lambda y, S, known: weighed(y, known[1] @ known[0] @ known[1].T)}),
-    ("nis-after", "your NIS uses the residual z - H x of the updated x. Use the "
-                  "innovation, which is computed before the update",
+    ("nis-after", "your code computes the NIS from the residual z - H x of the "
+                  "updated x. Use the innovation instead, which is computed before "
+                  "the update",
      {"nis": lambda y, S, known: weighed(known[3], S)}),
-    ("nis-with-new-P", "your NIS uses the S that belongs to the updated P. Use the S "
-                       "of the predicted P",
+    ("nis-with-new-P", "your code computes the NIS with the S of the updated P. Use "
+                       "the S of the predicted P instead",
      {"nis": lambda y, S, known: weighed(y, after_it(*known))}),
-    ("nis-all-after", "your NIS uses the updated x and P. Use the innovation and S, "
-                      "which are computed before the update",
+    ("nis-all-after", "your code computes the NIS from the updated x and P. Use the "
+                      "innovation and S instead, which are computed before the update",
      {"nis": lambda y, S, known: weighed(known[3], after_it(*known))}),
-    ("nis-diagonal", "your NIS uses only the diagonal of S, but the entries of the "
-                     "innovation may be correlated. Use the whole matrix S",
+    ("nis-diagonal", "your code uses only the diagonal of S in the NIS. Use the whole "
+                     "matrix S, because the entries of the innovation may be "
+                     "correlated",
      {"nis": lambda y, S, known: y @ (y / np.diag(S))}),
     ("nis-per-number", "your code divides the NIS by m, the number of entries of z. "
                        "Do not divide it, because the mean of the NIS is m",
@@ -124,8 +126,8 @@ for slug, says, other in (
 def _(x, P, z, H, R):
     """prior-P-in-the-gain: your gain P H^T R^-1 belongs to the updated P. With the
       predicted P, use S^-1 instead of R^-1
-    R-in-the-information: your information form uses R where it needs R^-1, the
-      information of the reading
+    R-in-the-information: your information form contains R instead of R^-1. Use R^-1,
+      because the information of a reading is the inverse of its covariance
     """
     _, new_P, nis = updated(x, P, z, H, R)
     y = z - H @ x

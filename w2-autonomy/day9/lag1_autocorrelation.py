@@ -36,9 +36,9 @@ def correlation(
 
 AS_IT_IS = {"above": lambda y: y}
 for slug, says, other in (
-    ("mean-not-taken-off", "your code does not subtract the mean. Subtract the mean "
-                           "first, because with a constant offset neighbours seem to "
-                           "be correlated",
+    ("mean-not-taken-off", "your code does not subtract the mean of y. Subtract it "
+                           "first, because a constant offset makes neighbouring "
+                           "entries seem correlated",
      {**AS_IT_IS, "below": lambda y: y}),
     ("mean-left-in-the-products", "your code subtracts the mean before it computes "
                                   "the squares, but not before it computes the "
@@ -67,10 +67,12 @@ for slug, says, other in (
                          "the squares. Divide it by the sum of the squares",
      {"share": lambda n: n}),
     ("mean-by-sum", "your code divides the mean of the products by the sum of the "
-                    "squares. Use the sum of the products instead",
+                    "squares. Divide the sum of the products by the sum of the "
+                    "squares instead",
      {"share": lambda n: 1 / (n - 1)}),
     ("mean-by-sum", "your code divides the mean of the products by the sum of the "
-                    "squares. Use the sum of the products instead",
+                    "squares. Divide the sum of the products by the sum of the "
+                    "squares instead",
      {"share": lambda n: 1 / n}),
     ("lag-two", "your code multiplies each entry by the second entry after it. "
                 "Multiply each entry by its direct neighbour",
@@ -78,8 +80,8 @@ for slug, says, other in (
     ("lag-zero", "your code multiplies each entry by itself, so the result is always "
                  "1. Multiply each entry by its neighbour", {"pairs": lambda d: d @ d}),
     ("round-the-corner", "your code multiplies the last entry by the first, as with "
-                         "np.roll, but the last and the first entry are not "
-                         "neighbours",
+                         "np.roll. Omit this product, because the last and the first "
+                         "entry are not neighbours",
      {"pairs": lambda d: d @ np.roll(d, 1)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(correlation, **other))
@@ -88,10 +90,10 @@ for slug, says, other in (
 @row.wrongs
 def _(y):
     """two-means: your code uses a separate mean and norm for y[1:] and y[:-1], as
-      np.corrcoef does. Use one mean and all n squares
+      np.corrcoef does. Use the mean of y for both, and the sum of all n squares
     of-the-changes: your result is the autocorrelation of the changes of y. Use y itself
     changes-squared: your result is the Durbin-Watson statistic, which is 2 for white
-      noise. Use the products of neighbours
+      noise. Use the products of neighbouring entries instead
     """
     d = centred(y)
     return {

@@ -42,19 +42,22 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
     residual-without-dt: your code adds the old residual to the integral without the
       factor dt. Multiply the residual by dt, because the integral is a momentum and the
       residual is a torque
-    integral-of-before: your residual uses the old integral. Update the integral first
-    integral-not-handed-on: your code returns the old integral. Return the new one
+    integral-of-before: your code computes the residual from the old integral. Update
+      the integral first
+    integral-not-handed-on: your code returns the old integral. Return the new integral
+      instead
     fed-back-times-gain: your integral contains the old residual times the gain. Add the
       residual without the gain, because it is already a torque
-    low-passed-again: your code adds gain (momentum - integral) times dt to the old
-      residual. Return gain (momentum - integral) alone, because the integral already
-      makes it a low pass
+    low-passed-again: your code adds gain * (momentum - integral) times dt to the old
+      residual. Return gain * (momentum - integral) alone, because the feedback in the
+      integral already makes it a low-pass filter
     residual-kept: your code adds the old residual to the new one. Return the new
       residual alone => both
     residual-taken-off: your code subtracts the old residual from the new one. Return
       the new residual alone
-    new-residual-fed-back: your integral uses a residual that is computed with the new
-      momentum. Use the residual of the previous sample
+    new-residual-fed-back: your code updates the integral with a residual that it
+      computes from the new momentum. Use the argument `residual` instead, the residual
+      of the previous sample
     """
     known = tau + energy_grad - gravity - damping * qd
     now = integral + (known + residual) * dt
