@@ -257,7 +257,7 @@ def test_a_mirror_of_axes_in_one_plane_does_not_pass():
         X[:3, 3] = np.linalg.lstsq(C, d, rcond=None)[0]
         return X
 
-    assert "may be a reflection" in told(10, "10.8", hand_eye=hand_eye)
+    assert "is a reflection" in told(10, "10.8", hand_eye=hand_eye)
 
 
 def test_a_range_holds_whatever_the_other_arguments_are():

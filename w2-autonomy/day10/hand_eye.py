@@ -109,8 +109,9 @@ def solved(
 
 
 for slug, says, other in (
-    ("mirror", "your code does not check the determinant, but U V^T may be a "
-               "reflection if the axes lie nearly in one plane",
+    ("mirror", "your code does not check the determinant of U V^T. If it is -1, U V^T "
+               "is a reflection, so negate the direction of the smallest singular "
+               "value",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
     ("mirror-turned-round", "if U V^T is a reflection, your code negates the whole "
                             "matrix. Negate only the direction of the smallest "
@@ -129,8 +130,9 @@ for slug, says, other in (
     ("positions-for-rotations", "your code fits the rotation to the translations of A "
                                 "and B. Fit the rotation to their rotation vectors",
      {"turn": between_places}),
-    ("R-transposed-in-d", "your code rotates t_B by R^T, but R itself maps the camera "
-                          "frame to the hand frame", {"turned": lambda R, t: t @ R}),
+    ("R-transposed-in-d", "your code rotates t_B by R^T. Use R itself, which maps the "
+                          "camera frame to the hand frame",
+     {"turned": lambda R, t: t @ R}),
     ("first-motion-only", "your code solves for t from the first motion only. One "
                           "motion does not determine t along its own axis, so stack "
                           "the equations of all motions",

@@ -51,8 +51,8 @@ def _(T, source, target):
       differences. Use the Euclidean distance
     nearer-half: your code fits only the half of the pairs that are nearer to each
       other. Fit all pairs
-    each-once: your code uses each target point at most once, but several source points
-      may have the same nearest target point
+    each-once: your code uses each target point at most once. Omit this restriction,
+      because several source points may have the same nearest target point
     in-the-plane: your code uses only x and y to find the nearest point. Use all three
       coordinates
     pairs-of-the-target: your code pairs each target point with the nearest source

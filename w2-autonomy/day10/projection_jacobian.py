@@ -110,22 +110,24 @@ for slug, says, other in (
                     "derivatives of x / z and y / z. Multiply the rows by fx and fy",
      {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
     ("centre-in-the-slope", "your derivatives with respect to z contain the principal "
-                            "point. The principal point is constant, so its "
-                            "derivative is 0",
+                            "point. Omit it, because the derivative of a constant is "
+                            "0",
      {"pixel": with_the_centre}),
-    ("x-for-y", "your row for v uses x in the derivative with respect to z. This "
+    ("x-for-y", "your row for v contains x in the derivative with respect to z. This "
                 "entry should be -fy y / z^2", {"pixel": with_one_name(1, 0)}),
-    ("y-for-x", "your row for u uses y in the derivative with respect to z. This "
+    ("y-for-x", "your row for u contains y in the derivative with respect to z. This "
                 "entry should be -fx x / z^2", {"pixel": with_one_name(0, 1)}),
     ("first-columns-not-divided", "your code does not divide the derivatives with "
                                   "respect to x and y by z. These derivatives should "
                                   "be fx / z and fy / z",
      {"pixel": lambda K, p: by_point(
          K, p) * np.where([True, True, False], depth(p, 1), 1.0)}),
-    ("pixels-for-x-and-y", "your derivatives with respect to z use the pixel (u, v). "
-                           "Use x and y in the camera frame", {"pixel": of_the_pixel}),
-    ("range-for-depth", "your derivatives use the distance of the point from the "
-                        "camera. Use its depth z", {"pixel": lambda K, p: by_point(
+    ("pixels-for-x-and-y", "your derivatives with respect to z contain the pixel "
+                           "coordinates (u, v). Use x and y in the camera frame "
+                           "instead", {"pixel": of_the_pixel}),
+    ("range-for-depth", "your derivatives contain the distance of the point from the "
+                        "camera. Use its depth z instead",
+     {"pixel": lambda K, p: by_point(
          K, np.column_stack([p[:, :2], np.linalg.norm(p, axis=1)]))}),
     ("halves-swapped",
      "your columns are in the order (v; omega). The order should be (omega; v)",
@@ -144,10 +146,10 @@ for slug, says, other in (
 
 @row.wrongs(hidden=dict.fromkeys(ONE_FOCAL_LENGTH, "the lab's camera has fx = fy"))
 def _(K, p_cam):
-    """fx-in-both-rows: your row for v uses fx. It should use fy, K[1, 1]
-    fx-in-both-rows 2: your columns for omega in the row for v use fx. They should use
-      fy, K[1, 1]
-    fy-in-both-rows: your row for u uses fy. It should use fx, K[0, 0]
+    """fx-in-both-rows: your row for v contains fx. It should contain fy, K[1, 1]
+    fx-in-both-rows 2: your columns for omega contain fx in the row for v. This row
+      should contain fy, K[1, 1]
+    fy-in-both-rows: your row for u contains fy. It should contain fx, K[0, 0]
     coordinates-not-divided: your code uses the formula for normalised coordinates with
       x and y in metres. Divide x and y by z first
     """

@@ -109,10 +109,12 @@ for slug, says, other in (
                    "J belong to twists in the camera frame, so the exponential "
                    "belongs on the left",
      {"move": on_the_right}),
-    ("first-order", "each step in your code is T + [xi] T, so R is no longer a "
-                    "rotation. Use the exponential", {"move": first_order}),
-    ("gradient", "each step in your code is J^T r, a gradient step with the residual "
-                 "r. A Gauss-Newton step is the least-squares solution of J xi = r",
+    ("first-order", "your code replaces the exponential by I + [xi], so R is no "
+                    "longer a rotation. Use the matrix exponential instead",
+     {"move": first_order}),
+    ("gradient", "your code uses J^T r as the step, which is a gradient step with the "
+                 "residual r. A Gauss-Newton step is the least-squares solution of J "
+                 "xi = r",
      {"solve": downhill}),
     ("each-from-the-guess", "your code applies each step to the guess. Apply each "
                             "step to the pose after the previous step",
