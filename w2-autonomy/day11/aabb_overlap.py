@@ -132,9 +132,9 @@ def _(box_a, box_b):
     """any-for-all: your code reports an overlap if the intervals overlap on at least
       one axis. Two boxes overlap only if their intervals overlap on all three axes
     one-direction: your code makes only one of the two comparisons, so it reports an
-      overlap if box_b lies above box_a
+      overlap if box_b lies above box_a. Compare both ends of the intervals
     one-direction 2: your code makes only one of the two comparisons, so it reports an
-      overlap if box_b lies below box_a
+      overlap if box_b lies below box_a. Compare both ends of the intervals
     touching-left-out: your code reports boxes that only touch as separate. It should
       report them as overlapping
     touching-left-out 2: your code reports boxes that touch on one side as separate. It
@@ -146,32 +146,34 @@ def _(box_a, box_b):
       intervals overlap on all three axes
     two-axes-only: your code does not compare z. Two boxes overlap only if their
       intervals overlap on all three axes
-    contained: your code requires that one box contains the other, but two boxes can
-      also overlap partially
-    contained 2: your code requires that box_a contains box_b, but two boxes can also
-      overlap partially
-    contained 3: your code requires that box_b contains box_a, but two boxes can also
-      overlap partially
+    contained: your code requires that one box contains the other. Compare the intervals
+      on each axis instead, because two boxes can also overlap partially
+    contained 2: your code requires that box_a contains box_b. Compare the intervals on
+      each axis instead, because two boxes can also overlap partially
+    contained 3: your code requires that box_b contains box_a. Compare the intervals on
+      each axis instead, because two boxes can also overlap partially
     a-corner-inside: your code requires that the lower or the upper corner of box_b lies
-      in box_a. Two boxes can overlap although neither of these corners lies in box_a
+      in box_a. Compare the intervals on each axis, because both corners can lie outside
     a-corner-inside 2: your code requires that the lower corner of box_b lies in box_a.
-      Two boxes can overlap although this corner lies outside box_a
+      Compare the intervals on each axis, because this corner can lie outside
     a-corner-inside 3: your code requires that the upper corner of box_b lies in box_a.
-      Two boxes can overlap although this corner lies outside box_a
-    middles-inside: your code requires that the centre of box_a lies in box_b. Two boxes
-      can overlap although this centre lies outside box_b
+      Compare the intervals on each axis, because this corner can lie outside
+    middles-inside: your code requires that the centre of box_a lies in box_b. Compare
+      the intervals on each axis, because this centre can lie outside
     middles-inside 2: your code requires that the centre of one box lies in the other
-      box. Two boxes can overlap although neither centre lies in the other box
+      box. Compare the intervals on each axis, because both centres can lie outside
     half-of-one: your limit for the distance between the centres uses only the half
       extents of box_a. Add the half extents of box_b
-    corners-only: your code tests whether a corner of one box lies in the other box, but
-      two boxes can cross although no corner lies in the other box => both
-    corners-only 2: your code tests whether a corner of box_b lies in box_a. Two boxes
-      can cross, or box_b can contain box_a, although no such corner exists
-    corners-only 3: your code tests only the lower and the upper corner of each box. Two
-      boxes can overlap although none of these corners lies in the other box
-    corners-only 4: your code tests only the lower corner of each box. Two boxes can
-      overlap although neither of these corners lies in the other box
+    corners-only: your code tests whether a corner of one box lies in the other box.
+      Compare the intervals on each axis, because two boxes can cross without such a
+      corner => both
+    corners-only 2: your code tests whether a corner of box_b lies in box_a. Compare the
+      intervals on each axis, because two boxes can overlap without such a corner
+    corners-only 3: your code tests only the lower and the upper corner of each box.
+      Compare the intervals on each axis, because all these corners can lie outside the
+      other box
+    corners-only 4: your code tests only the lower corner of each box. Compare the
+      intervals on each axis, because both corners can lie outside the other box
     balls: your code treats the boxes as spheres, because it compares the norm of the
       vector between the centres. Compare each axis separately
     balls 2: your code treats the boxes as spheres, because it compares the norm of the

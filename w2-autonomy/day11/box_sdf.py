@@ -89,29 +89,30 @@ def _(p, half_extents):
     to-the-middle-inside: inside the box, your code returns minus the distance to the
       centre. Use the distance to the nearest face
     to-the-middle: your code returns the distance to the centre, so the size of the box
-      has no effect
+      has no effect. Use the distance to the surface of the box instead
     box-as-a-ball: your code treats the box as a sphere. Compare each coordinate with
       its own half extent
     box-as-a-ball 2: your code treats the box as a sphere. Compare each coordinate with
       its own half extent
     box-as-a-ball 3: your code treats the box as a sphere. Compare each coordinate with
       its own half extent
-    whole-sides: your code halves half_extents, but half_extents already contains half
-      of each side
-    twice-the-sides: your code doubles half_extents, but the faces are at plus and minus
-      half_extents
+    whole-sides: your code halves half_extents. Use half_extents itself, which already
+      contains half of each side
+    twice-the-sides: your code doubles half_extents. Use half_extents itself, because
+      the faces are at plus and minus half_extents
     abs-forgotten: your code omits the absolute value of p, so points with a negative
       coordinate are wrong. Use |p| - half_extents
     abs-forgotten-zero-inside: your code omits the absolute value of p, and it returns 0
-      inside the box => both
+      inside the box. Use |p| - half_extents, and return minus the distance to the
+      nearest face inside the box => both
     not-rooted: your code omits the square root, so outside the box the result is a
       squared distance
-    nearest-corner: your code returns the distance to the nearest corner, but a face or
-      an edge can be nearer
-    largest-half: your code uses the largest half extent on every axis. Each axis has
-      its own half extent
-    half-backwards: your code uses half_extents in reverse order, but the first entry of
-      half_extents belongs to x
+    nearest-corner: your code returns the distance to the nearest corner. Use |p| -
+      half_extents instead, because a face or an edge can be nearer
+    largest-half: your code uses the largest half extent on every axis. Use the half
+      extent of each axis instead
+    half-backwards: your code uses half_extents in reverse order. Its first entry
+      belongs to x, the second to y and the third to z
     in-the-plane: your code does not use z. Use all three coordinates
     smallest-added: your code adds the smallest entry of |p| - half_extents, even where
       it is positive. Add the largest entry, and only where it is negative
@@ -126,17 +127,18 @@ def _(p, half_extents):
     one-number-inside: inside the box, your code always returns -1. Return minus the
       distance to the nearest face
     least-half-inside: inside the box, your code always returns minus the smallest half
-      extent, which is correct only at the centre
+      extent, which is correct only at the centre. Return minus the distance to the
+      nearest face
     smallest-part-inside: inside the box, your code returns minus the smallest entry of
-      |p|, but the distance to a face is half_extents - |p|
+      |p|. Return minus the smallest entry of half_extents - |p|, the distance to the
+      nearest face
     upper-faces-inside: inside the box, your code uses only the faces on the positive
-      side, but the opposite face can be nearer
-    lengthwise: your code measures the distance along the line to the centre. The
-      shortest distance to a face is perpendicular to the face
-    size-of-the-difference: your code uses |p - half_extents|, but the excess beyond a
-      face is |p| - half_extents
-    cut-at-one: your code limits the excess beyond a face to 1, but the excess has no
-      upper limit
+      side. Use half_extents - |p|, because the opposite face can be nearer
+    lengthwise: your code measures the distance along the line to the centre. Use |p| -
+      half_extents, because the shortest distance to a face is perpendicular to the face
+    size-of-the-difference: your code uses |p - half_extents|. Use |p| - half_extents
+      instead, which is the excess beyond a face
+    cut-at-one: your code limits the excess beyond a face to 1. Omit this limit
     corner-or-face: near an edge, your code returns the larger of the two excesses.
       Return their norm
     two-of-three: near a corner, your code uses only the two largest excesses. Use all

@@ -44,9 +44,12 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, r):
-    """radius-forgotten: your code omits the radius, so the box contains only the axis
-    radius-on-one-side: your code does not subtract the radius from the lower corner
-    radius-on-one-side 2: your code does not add the radius to the upper corner
+    """radius-forgotten: your code omits the radius, so the box contains only the axis.
+      Subtract the radius from the lower corner and add it to the upper corner
+    radius-on-one-side: your code omits the radius in the lower corner. Subtract the
+      radius from this corner
+    radius-on-one-side 2: your code omits the radius in the upper corner. Add the radius
+      to this corner
     radius-inwards: your radius has the wrong sign, so the box shrinks. Subtract the
       radius from the lower corner and add it to the upper corner
     radius-added-to-both: your code adds the radius to both corners. Subtract it from
@@ -69,9 +72,9 @@ def _(a0, a1, r):
     longest-side 2: your box extends from the midpoint by r plus the length of the axis
       in x, y and z. Each coordinate has its own extent, r + |a1 - a0| / 2
     around-one-end: your code uses only a0, so the result is the box of a sphere around
-      a0
+      a0. Use a1 as well
     around-one-end 2: your code uses only a1, so the result is the box of a sphere
-      around a1
+      around a1. Use a0 as well
     along-the-axis: your code adds the radius only along the direction of the axis. The
       sphere at each end extends by r along x, y and z
     whole-ends-sorted: your code uses one whole end as the lower corner. Take the
@@ -81,15 +84,16 @@ def _(a0, a1, r):
     whole-ends-sorted 3: your code uses one whole end as the lower corner. Take the
       minimum of each coordinate separately
     cube-in-the-ball: your code adds r / sqrt(3), which gives the cube inside the
-      sphere, but the box must contain the sphere
+      sphere. Add r, because the box must contain the sphere
     radius-times: your code multiplies the corners by 1 - r and 1 + r. Subtract and add
       r instead
     with-the-origin: your box always contains the origin. Start the minimum and the
       maximum from a0, not from 0
     size-of-places: your code takes the minimum and the maximum of absolute values. Use
       the coordinates with their signs
-    as-a-ball: your result is the box of a sphere around the whole capsule. The box
-      should be as small as possible
+    as-a-ball: your result is the box of a sphere around the whole capsule. Use the
+      minimum and the maximum of each coordinate, because the box should be as small as
+      possible
     """
     low = np.minimum(a0, a1)
     high = np.maximum(a0, a1)

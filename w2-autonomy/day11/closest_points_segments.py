@@ -73,8 +73,8 @@ def _(rng):
 def _(a0, a1, b0, b1):
     """not-clamped: your code does not clamp s and t to [0, 1], so the points can lie
       beyond the ends of the segments
-    clamped-apart: your code clamps s and t independently, but clamping one of them
-      changes the optimal value of the other
+    clamped-apart: your code clamps s and t independently. Clamping one of them changes
+      the optimal value of the other, so compute the other one again
     s-not-again: your code does not recompute s after it clamps t. Compute s again,
       because the optimal s depends on t
     s-not-again 2: your code does not recompute t after it clamps s. Compute t again,
@@ -89,12 +89,14 @@ def _(a0, a1, b0, b1):
       beyond the ends
     cut-above-only: your code clamps s and t at 1 but not at 0, so the points can lie
       before the start points
-    ends-only: your code assumes that one of the closest points is an end, but both
-      points can lie between the ends
-    end-pairs: your code returns the nearest pair of ends, but the closest points can
-      lie between the ends
+    ends-only: your code assumes that one of the closest points is an end. Use the s and
+      t of the infinite lines where both lie in [0, 1], because both points can lie
+      between the ends
+    end-pairs: your code returns the nearest pair of ends. Compute s and t instead,
+      because the closest points can lie between the ends
     end-pairs 2: your code uses the end of the first segment that is nearest to the
-      second segment. The closest point can lie between the ends
+      second segment. Compute s instead, because the closest point can lie between the
+      ends
     w-sign: your vector w has the wrong sign. It should run from b0 to a0, w = a0 - b0
     d-and-e-swapped: your code swaps d and e. The products are d = u . w and e = v . w
     numerator-sign: your numerator for s has the wrong sign. The parameter s should be
@@ -108,30 +110,31 @@ def _(a0, a1, b0, b1):
     swapped-to-s: your code swaps s and t. The parameter s belongs to the first segment
     points-swapped: your point of the second segment comes first. Return the point of
       the first segment first
-    middles: your code returns the midpoints of the segments, but the closest points can
-      be anywhere on the segments
-    starts: your code returns the start points of the segments, but the closest points
-      can be anywhere on the segments
-    same-share: your code sets t equal to s, but each segment has its own parameter
+    middles: your code returns the midpoints of the segments. Compute s and t instead,
+      because the closest points can be anywhere on the segments
+    starts: your code returns the start points of the segments. Compute s and t instead,
+      because the closest points can be anywhere on the segments
+    same-share: your code sets t equal to s. Compute t separately, because each segment
+      has its own parameter
     shares: your code returns s u and t v. Add the start points a0 and b0
     beyond-the-ends: your code measures the two points from a1 and b1. Measure them from
       a0 and b0, because s and t are measured from there
     t-from-the-end: your code measures t from b1. Measure t from b0
     s-from-the-end: your code measures s from a1. Measure s from a0
-    unit-directions: your code normalises u and v, so s and t are lengths in metres, but
-      your code clamps s and t to [0, 1]. Use u and v themselves
+    unit-directions: your code normalises u and v, so s and t are lengths in metres and
+      cannot be clamped to [0, 1]. Use u and v themselves
     nearest-to-the-middle: your code returns the midpoint of the second segment and the
-      point of the first segment that is nearest to this midpoint. The closest point of
-      the second segment need not be its midpoint
-    sampled: your code tests only some points of each segment, but the closest points
-      can lie between the tested points
-    sampled 2: your code tests only some points of each segment, but the closest points
-      can lie between the tested points
-    sampled 3: your code tests only some points of each segment, but the closest points
-      can lie between the tested points
+      nearest point of the first. Compute t as well, because the closest point can be
+      anywhere on the second segment
+    sampled: your code tests only some points of each segment. Compute s and t instead,
+      because the closest points can lie between the tested points
+    sampled 2: your code tests only some points of each segment. Compute s and t
+      instead, because the closest points can lie between the tested points
+    sampled 3: your code tests only some points of each segment. Compute s and t
+      instead, because the closest points can lie between the tested points
     ends-where-cut: if the closest points of the infinite lines are not both on the
-      segments, your code returns the nearest pair of ends. One of the closest points
-      can still lie between the ends
+      segments, your code returns the nearest pair of ends. Clamp s instead, and compute
+      t again
     ends-where-cut 2: if the closest points of the infinite lines are not both on the
       segments, your code tests only the ends of the first segment. Test the ends of the
       second segment too
@@ -142,7 +145,8 @@ def _(a0, a1, b0, b1):
       segments, your code sets s to 0. Clamp s instead
     start-where-cut 2: your code sets an s outside [0, 1] to 0. Clamp s, so that a value
       above 1 becomes 1
-    start-where-cut 3: your code sets an s outside [0, 1] to 0.5. Clamp s instead
+    start-where-cut 3: your code sets an s outside [0, 1] to 0.5. Clamp s to [0, 1]
+      instead
     start-where-cut 4: your code sets s and t outside [0, 1] to 0. Clamp them, so that a
       value above 1 becomes 1
     one-end-cut: your code recomputes s where t is below 0, but not where t is above 1.
@@ -153,12 +157,12 @@ def _(a0, a1, b0, b1):
       segment can lie before b0
     t-one-end-cut 2: your code clamps t at 0 but not at 1, so the point of the second
       segment can lie beyond b1
-    a-start-alone: your code returns the start of the first segment and the point of the
-      second segment that is nearest to this start. The closest point of the first
-      segment need not be its start
-    a-middle-alone: your code returns the midpoint of the first segment and the point of
-      the second segment that is nearest to this midpoint. The closest point of the
-      first segment need not be its midpoint
+    a-start-alone: your code returns the start of the first segment and the nearest
+      point of the second. Compute s as well, because the closest point can be anywhere
+      on the first segment
+    a-middle-alone: your code returns the midpoint of the first segment and the nearest
+      point of the second. Compute s as well, because the closest point can be anywhere
+      on the first segment
     farthest: your code selects the farthest of the candidate pairs. Select the nearest
       pair
     one-round: your code starts with s = 0 and then computes t and s only once, which
@@ -360,8 +364,8 @@ def least_angle(share):
 
 
 ALIKE = (
-    "your code treats segments that differ by a few degrees as parallel. They have a "
-    "single closest pair, so use a much smaller limit for a c - b b"
+    "your code treats segments that differ by a few degrees as parallel. Use a much "
+    "smaller limit for a c - b b, because such segments have a single closest pair"
 )
 SELDOM = "hardly a pair in a run is so nearly parallel"
 row.wrong("nearly-parallel", hidden=SELDOM)(least_angle(1e-3))
@@ -385,9 +389,8 @@ def rounds(n, start):
 
 
 FEW = (
-    "your code alternates between t and s, but it stops after too few iterations. One "
-    "iteration is enough if you start with the s of the infinite lines, clamped to "
-    "[0, 1]"
+    "your code alternates between t and s, but it stops too early. Start with the s "
+    "of the infinite lines, clamped to [0, 1], so that one iteration is enough"
 )
 for n in (2, 3, 4, 5, 10):
     for start in (0.0, 0.5):

@@ -119,20 +119,20 @@ def _(s, distance, delta_q, radii):
       absolute values
     signs-kept 2: your code takes the absolute value after the sum, so opposite
       rotations cancel. Take the absolute value for each joint
-    fastest-joint-only: your bound uses only the largest product |delta_q_i| radii_i,
-      but the motions of all joints add up
-    fastest-joint-only 2: your bound uses only the largest |delta_q|, but the motions of
-      all joints add up
+    fastest-joint-only: your bound uses only the largest product |delta_q_i| * radii_i.
+      Add the products of all joints, because their motions add up
+    fastest-joint-only 2: your bound is the largest |delta_q_i| times the largest
+      radius. Add |delta_q_i| * radii_i over all joints, because their motions add up
     norm-of-dq: your bound is the norm of delta_q times the largest radius, which is not
-      an upper bound. Add |delta_q_i| radii_i over all joints
-    norm-of-products: your code takes the norm of the products |delta_q_i| radii_i. Take
-      their sum
+      an upper bound. Add |delta_q_i| * radii_i over all joints
+    norm-of-products: your code takes the norm of the products |delta_q_i| * radii_i.
+      Take their sum
     norm-of-products 2: your code multiplies the norm of delta_q by the norm of radii.
-      Add the products |delta_q_i| radii_i
-    largest-reach: your code uses the largest radius for every joint, which is safe but
-      not the bound in the task
-    reach-forgotten: your code omits the radii, but a rotation in radians becomes a
-      distance only when multiplied by a radius
+      Add the products |delta_q_i| * radii_i
+    largest-reach: your code uses the largest radius for every joint, so its steps are
+      shorter than necessary. Use the radius of each joint
+    reach-forgotten: your code omits the radii. Multiply each |delta_q_i| by radii_i,
+      which bounds the motion in metres
     dq-forgotten: your bound omits delta_q. A longer motion moves the arm further, so
       the bound should grow with delta_q
     of-what-is-left: your code multiplies the step by 1 - s. The argument delta_q
@@ -141,7 +141,7 @@ def _(s, distance, delta_q, radii):
       to the whole motion, so omit this factor
     half-a-step: your step is half as long as the bound allows. Use the whole step
     twice-a-step: your step is twice as long as the bound allows, so the arm can hit the
-      obstacle
+      obstacle. Divide the distance by the bound itself
     multiplied: your code multiplies the distance by the bound. Divide the distance by
       the bound, because a faster motion needs a shorter step
     s-forgotten: your code returns the step alone. Return s plus the step
@@ -161,27 +161,28 @@ def _(s, distance, delta_q, radii):
       contact. If the arm is in contact, return s even if no joint moves
     reach-backwards: your radii are in reverse order, but the first radius belongs to
       joint 1
-    reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii,
-      but each joint has its own radius
+    reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii.
+      Multiply each |delta_q_i| by its own radius, and then add the products
     reaches-summed 2: your code multiplies the largest |delta_q| by the sum of the
-      radii, but each joint has its own radius
-    reaches-summed 3: your code multiplies the norm of delta_q by the sum of the radii,
-      but each joint has its own radius
-    one-direction: your code treats negative entries of delta_q as 0, but rotations in
-      both directions move the arm
-    one-left-out: your code omits the last joint in the sum
-    one-left-out 2: your code omits the first joint in the sum
-    chord: your code uses the chord 2 sin(delta_q / 2), but a point moves along the arc,
-      which is longer
-    mean-of-joints: your bound is the mean over the joints, but the motions of all
-      joints add up
-    step-capped: your code limits the step to 1, but s plus the step can exceed 1. Limit
-      the sum
+      radii. Multiply each |delta_q_i| by its own radius, and then add the products
+    reaches-summed 3: your code multiplies the norm of delta_q by the sum of the radii.
+      Multiply each |delta_q_i| by its own radius, and then add the products
+    one-direction: your code treats negative entries of delta_q as 0. Take absolute
+      values, because rotations in both directions move the arm
+    one-left-out: your code omits the last joint in the sum. Sum over all joints
+    one-left-out 2: your code omits the first joint in the sum. Sum over all joints
+    chord: your code uses the chord 2 sin(delta_q / 2). Use |delta_q|, because a point
+      moves along the arc, which is longer
+    mean-of-joints: your bound is the mean over the joints. Take the sum, because the
+      motions of all joints add up
+    step-capped: your code limits the step to 1. Limit the sum of s and the step,
+      because this sum can exceed 1
     limit-of-the-whole: your code compares the distance with the bound on the whole
       motion. Multiply the bound by 1 - s, because only this part of the motion remains
     step-capped 2: your code returns the smaller of 1 - s and the step. Return the
       smaller of 1 and s + step
-    max-for-min: your code uses max instead of min, so the result is never below 1
+    max-for-min: your code uses max instead of min, so the result is never below 1.
+      Return the smaller of 1 and s + step
     shares-summed: your code adds the steps that each joint alone would allow. Add the
       motions first, then divide
     careful: your code uses only a part of the step that the bound allows. Use the whole

@@ -59,23 +59,23 @@ def _(rng):
 def _(link_lengths, link_radii):
     """to-the-tip-only: your bound uses only the last link. A point on an earlier link
       can be farther away, so take the maximum over all distal links
-    own-link-only: your bound uses only the joint's own link, but the joint also moves
-      the distal links
+    own-link-only: your bound uses only the joint's own link. Take the maximum over the
+      distal links too, because the joint also moves them
     next-only: your bound stops at the next link. Use the bound of the next joint
       instead of the radius of the next link
     from-the-base: your code measures from the base. Measure from joint i to its distal
       links
     offset-one-late: for joint i, your code uses link_lengths[i + 1]. The distance from
       link i to the next link is link_lengths[i]
-    offset-of-the-last: your code adds the length of the last link, but no link follows
-      it
-    offset-of-the-last 2: your code uses the length of the last link as a radius, but no
-      link follows it
+    offset-of-the-last: your code adds the length of the last link. Omit it, because no
+      link follows the last one
+    offset-of-the-last 2: your code uses the length of the last link as a radius. Omit
+      it, because no link follows the last one
     offset-to-its-own: your code also adds the link length to the joint's own link
       radius. Add this length only for the distal links
     far-forgotten: your code adds only the link lengths. Include the link radii
     offsets-forgotten: your code omits the link lengths, so the result is the largest
-      link radius
+      link radius. Add the link lengths between the joint and the distal link
     all-summed: your code adds the radii of all distal links. Only one point is the
       farthest, so use only the radius of its link
     largest-far: your code adds the largest link radius of the arm to the distance of
@@ -91,7 +91,7 @@ def _(link_lengths, link_radii):
       stretched arm the lengths add up
     one-for-all: your code returns the largest result for every joint. Each joint should
       have its own bound
-    backwards: your result is in reverse order, but its first entry belongs to joint 1
+    backwards: your result is in reverse order. Its first entry should belong to joint 1
     sum-from-the-base: your code sums the link lengths from the base to the joint. Sum
       the link lengths from the joint to the distal link
     far-of-its-own: your code adds the radius of the joint's own link to the sum of all
@@ -102,8 +102,8 @@ def _(link_lengths, link_radii):
       take the maximum
     forwards: your code works from the base outwards. Start at the last joint, because a
       joint moves the links distal to it
-    less-the-base: your code uses the farthest point of the whole arm for every joint,
-      but only the links distal to the joint matter
+    less-the-base: your code uses the farthest point of the whole arm for every joint.
+      Use only the links distal to the joint
     less-the-base 2: your code measures the farthest distal point from the base. Measure
       it from the joint
     largest-far-behind: your bound adds the largest distal link radius to the distance
@@ -113,17 +113,17 @@ def _(link_lengths, link_radii):
       link to the distance of the last link. Add each radius to the distance of its own
       link, and then take the maximum
     own-offset-repeated: your code repeats the joint's own link length for every distal
-      link, but each link has its own length
+      link. Use the length of each link
     offset-of-the-one-before: for joint i, your code uses link_lengths[i - 1]. The
       distance from link i to the next link is link_lengths[i]
     far-of-the-next: your code uses the radius of the next link instead of the joint's
       own link radius
-    own-left-out: your code omits the joint's own link, but the farthest point can be on
-      this link
-    own-or-tip: your bound uses only the joint's own link and the last link, but a point
-      on a link between them can be farther away
-    two-behind-only: your bound uses only the joint's own link and the next two links,
-      but the joint moves all distal links
+    own-left-out: your code omits the joint's own link. Include it, because the farthest
+      point can be on this link
+    own-or-tip: your bound uses only the joint's own link and the last link. Include all
+      links between them, because a point on one of them can be farther away
+    two-behind-only: your bound uses only the joint's own link and the next two links.
+      Include all distal links, because the joint moves all of them
     sum-not-largest: your code adds the link radius to the maximum of the link length
       and the bound of the next joint. Take the maximum of the link radius and the sum
       of the other two
@@ -138,10 +138,11 @@ def _(link_lengths, link_radii):
       link lengths. Add the distal radii to the lengths
     last-link-forgotten: your code treats the radius of the last link as 0. Use the last
       entry of link_radii
-    last-link-forgotten 2: your code omits the last link, but the farthest point of the
-      arm can be on the last link
+    last-link-forgotten 2: your code omits the last link. Include it, because the
+      farthest point of the arm can be on the last link
     offsets-to-the-end: your code adds all link lengths, including the last one, and the
-      radius of the last link. No link follows the last one
+      radius of the last link. Omit the last length, because no link follows the last
+      one
     offset-too-early: your code adds link_lengths[j] to the radius of link j itself.
       This length belongs only to the links after link j
     far-twice: your code adds the joint's own link radius to the bound. The bound should

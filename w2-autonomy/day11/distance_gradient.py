@@ -81,31 +81,32 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p, o, link):
-    """towards-the-obstacle: your code reverses the signs. The distance grows along p -
-      o, not along o - p
-    columns-behind-kept: your entries for the joints distal to the link are not 0, but
-      these joints do not move the link
-    own-joint-left-out: your entry for the link's own joint is 0, but this joint also
-      moves the link
-    one-column-too-many: your entry for joint `link` + 1 is not 0, but this joint moves
-      only distal links
+    """towards-the-obstacle: your gradient has the opposite sign. The distance increases
+      if p moves along p - o, so use the unit vector of p - o
+    columns-behind-kept: your entries for the joints distal to the link are not 0. Set
+      them to 0, because these joints do not move the link
+    own-joint-left-out: your entry for the link's own joint is 0. Include this joint,
+      because it also moves the link
+    one-column-too-many: your entry for joint `link` + 1 is not 0. Set it to 0, because
+      this joint moves only distal links
     from-the-link-on: your code keeps the link's own joint and the joints distal to it.
       Keep the joints up to the link
-    first-joint-left-out: your entry for joint 1 is 0, but joint 1 moves every link
-    own-joint-only: your result is 0 except for the link's own joint, but all joints up
-      to the link move it
+    first-joint-left-out: your entry for joint 1 is 0. Include joint 1, because it moves
+      every link
+    own-joint-only: your result is 0 except for the link's own joint. Include all joints
+      up to the link, because all of them move it
     columns-before-dropped: your code keeps the joints distal to the link. Keep the
       joints up to the link
     rotation-forgotten: your result contains only v, not omega x p. Either the term
       omega x p is missing, or it uses p - o instead of p
-    rotation-only: your code omits v, but the velocity of p is v + omega x p
-    cross-the-other-way: your cross product has the wrong order. The velocity of p is v
-      + omega x p
+    rotation-only: your code omits v. Use v + omega x p, which is the velocity of p
+    cross-the-other-way: your cross product has the wrong order. Use v + omega x p,
+      which is the velocity of p
     normal-not-unit: your code does not normalise the normal, so the result is
       multiplied by the distance. Divide the normal by the distance
     normal-squared: your code divides the normal by the squared distance. Divide it by
       the distance
-    half: your result has an extra factor 1/2. Remove it
+    half: your result contains a factor of 1/2. Omit this factor
     normal-of-p: your normal points from the world origin to p. It should point from o
       to p
     normal-of-o: your normal points from the world origin to o. It should point from o
@@ -114,12 +115,12 @@ def _(J_space, p, o, link):
       velocity onto the normal
     not-projected: your code returns the speed of p. Return the component of the
       velocity along the normal
-    size-only: your code returns the absolute values, but a negative entry means that
-      the distance decreases
-    parts-added: your code divides the normal by the sum of the components' absolute
-      values. Divide by the norm of p - o
-    largest-part: your code divides the normal by the largest component. Divide by the
-      norm of p - o
+    size-only: your code returns the absolute values of the entries. Keep their signs,
+      because a negative entry means that the distance decreases
+    parts-added: your code divides p - o by the sum of its absolute components. Divide
+      it by its norm
+    largest-part: your code divides p - o by its largest absolute component. Divide it
+      by its norm
     two-directions: your code normalises p and o separately. Normalise their difference
     parts-summed: your code adds the absolute values of the velocity components. Project
       the velocity onto the normal

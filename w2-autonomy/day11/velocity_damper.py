@@ -120,12 +120,12 @@ MORE = (
 def _(qd, grad, distance, gain):
     """always: your code changes velocities that are already allowed. Return such a qd
       unchanged
-    not-divided: your code does not divide the correction by grad . grad, so the
-      correction has the wrong norm unless grad has norm 1
+    not-divided: your code does not divide the correction by grad . grad. Divide it,
+      because grad need not have norm 1
     divided-by-the-length: your code divides the correction by the norm of grad. Divide
       it by grad . grad
     pushed-in: your correction has the wrong sign, so the arm moves nearer to the
-      obstacle
+      obstacle. Change qd along +grad, because the distance increases in this direction
     all-joints-slowed: your code scales all joints by one factor. Change only the
       component along grad
     all-joints-slowed 2: your code scales all joints by one factor. Change only the
@@ -137,22 +137,22 @@ def _(qd, grad, distance, gain):
     part-removed: your code removes the whole component along grad. Keep the part that
       the bound allows
     sign-of-the-bound: your bound has the wrong sign. The condition is grad . qd >=
-      -gain distance
+      -gain * distance
     distance-sign-lost: your code uses the absolute value of the distance. A negative
       distance should give a positive bound, which moves the arm away
-    gain-forgotten: your bound omits the gain. It should be -gain distance
-    distance-forgotten: your bound omits the distance. It should be -gain distance
+    gain-forgotten: your bound omits the gain. It should be -gain * distance
+    distance-forgotten: your bound omits the distance. It should be -gain * distance
     distance-over-gain: your code divides the distance by the gain. Multiply the two
     wrong-side: your code reverses the comparison, so it changes the allowed velocities
-      and keeps the others
+      and keeps the others. Change qd only if grad . qd is below the bound
     leaving-forbidden: your code also limits velocities away from the obstacle. Limit
       only the approach
-    joint-by-joint: your code applies the bound to each joint separately, but the bound
-      limits the sum grad . qd
-    joint-by-joint 2: your code clamps each joint velocity to the bound, but the bound
-      is in m/s and limits the sum grad . qd
-    largest-joint-only: your code changes only the joint with the largest entry of grad,
-      but the smallest change is along grad
+    joint-by-joint: your code applies the bound to each joint separately. Apply it to
+      grad . qd, the rate of change of the distance
+    joint-by-joint 2: your code clamps each joint velocity to the bound. Apply the bound
+      to grad . qd instead, because the bound is a velocity in m/s
+    largest-joint-only: your code changes only the joint with the largest entry of grad.
+      Change qd along grad instead, because this change is the smallest
     slope-unit: your code normalises grad in grad . qd, but not in the bound. Use grad
       itself
     only-inside: your code limits the velocity only if the distance is negative. Limit
@@ -172,10 +172,10 @@ def _(qd, grad, distance, gain):
       away from the obstacle. Keep the signs
     half-of-it: your code adds only half of the correction. Add the whole correction
     twice-of-it: your code adds twice the correction. Add it once
-    one-joint-only: your code changes only the first joint, but the smallest change is
-      along grad
-    one-joint-only 2: your code changes only the joint with the fastest approach, but
-      the smallest change is along grad
+    one-joint-only: your code changes only the first joint. Change qd along grad
+      instead, because this change is the smallest
+    one-joint-only 2: your code changes only the joint with the fastest approach. Change
+      qd along grad instead, because this change is the smallest
     alike: your code gives every joint the same correction. Make it proportional to grad
     by-signs: your code gives every joint a correction of the same size. Make it
       proportional to grad
@@ -186,8 +186,8 @@ def _(qd, grad, distance, gain):
     divided-by-the-largest: your code divides the correction by the square of the
       largest entry of grad. Divide it by grad . grad
     divided-by-qd: your code divides the correction by qd . qd. Divide it by grad . grad
-    those-that-come-near: your code changes only joints that approach the obstacle. The
-      smallest change is along grad, which also changes the other joints
+    those-that-come-near: your code changes only joints that approach the obstacle.
+      Change qd along the whole grad instead, because this change is the smallest
     those-that-come-near 2: your code stops joints that approach the obstacle. Keep the
       part of the velocity that is allowed
     rate-added: your correction uses the sum of the bound and grad . qd. It should use
