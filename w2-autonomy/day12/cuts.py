@@ -142,10 +142,12 @@ OPTIONS = [
                               "row by one. Use int(u m) "
                               "for both", {"places": lambda pair, m: [
                int(min(pair) * (m - 1)), int(max(pair) * (m - 1)) + 1]}),
-    Option("two-apart-left", "your code skips rows that are two apart, but the point "
-                             "between them can be removed", {"least": 2}),
-    Option("three-apart-left", "your code skips rows that are two or three apart, "
-                               "but the points between them can be removed",
+    Option("two-apart-left", "your code skips rows that are two apart. Test these "
+                             "rows too, because the point between them can be removed",
+           {"least": 2}),
+    Option("three-apart-left", "your code skips rows that are two or three apart. "
+                               "Test these rows too, because the points between them "
+                               "can be removed",
            {"least": 3}),
     Option("pairs-backwards", "your code uses the pairs in reverse order. Start with "
                               "the first pair",

@@ -144,12 +144,12 @@ def _(tree, sample, step, world):
       edge
     always-free: your code does not test the edge, so it reports every edge as free
     never-free: your code reports that no edge is free. Test the edge to the new point
-    edge-from-the-root: your code tests the edge from the root to the new point, but the
-      edge starts at the nearest node
+    edge-from-the-root: your code tests the edge from the root to the new point. Test
+      the edge from the nearest node to the new point instead
     edge-to-the-sample: your code tests the edge to the sample. Test only the edge to
       the new point
-    edge-of-two-steps: your code tests an edge of two steps, but the tree grows by one
-      step
+    edge-of-two-steps: your code tests an edge of two steps. Test an edge of one step,
+      because the tree grows by one step
     edge-on-from-there: your code tests the edge from the new point to the sample. Test
       the edge from the nearest node to the new point
     hit-for-free: your code inverts the third result. It should be True if the edge is
@@ -179,11 +179,11 @@ def _(tree, sample, step, world):
     standing-is-blocked: if the sample equals a node, your code reports a blocked edge.
       An edge of length 0 is free if the node is free
     own-is-free: your code does not call the method `edge_free` of a world that has one,
-      so it reports every edge of this world as free
+      so it reports every edge of this world as free. Call this method
     own-is-blocked: your code does not call the method `edge_free` of a world that has
-      one, so it reports every edge of this world as blocked
-    free-if-reached: your code reports a free edge only if the step reaches the sample,
-      but a step towards the sample is an edge too
+      one, so it reports every edge of this world as blocked. Call this method
+    free-if-reached: your code reports a free edge only if the step reaches the sample.
+      Report the result of the test for every step, because each step is an edge
     reached-is-free: if the step reaches the sample, your code does not test the edge.
       Test every edge
     ends-only: your code tests only the two ends of the edge. Test the points between
@@ -191,8 +191,8 @@ def _(tree, sample, step, world):
     twice-a-step: your edge has a length of two steps. Limit it to one step
     half-a-step: your edge has a length of half a step. Use the whole step
     unit-step: your edge has length 1. Use the argument `step`
-    added-twice: your code adds the result of `steer` to the node, but `steer` already
-      returns a point, not a displacement
+    added-twice: your code adds the result of `steer` to the node. Use the result
+      itself, because `steer` returns a point and not a displacement
     nearest-of-the-free: your code selects the nearest node among those with a free
       edge. Select the nearest node of all and report whether its edge is free
     sample-where-blocked: if the edge is not free, your code returns the sample. Return

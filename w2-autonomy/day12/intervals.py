@@ -101,7 +101,8 @@ OPTIONS = [
             ("one-for-z2", "1 / (2 n)", lambda z, n: 1 / (2 * n)))
     ]),
     *_each("front", [
-        ("z-forgotten", "your code omits the factor z before the root", lambda z: 1.0),
+        ("z-forgotten", "your code omits the factor z before the root. Multiply the "
+                        "root by z", lambda z: 1.0),
         ("z-squared", "your code multiplies the root by z^2. Multiply it by z",
          lambda z: z * z),
         ("half-width", "your code multiplies the root by z / 2. Multiply it by z",
@@ -175,16 +176,16 @@ OPTIONS = [
         ("cut", "your code clamps the ends to the range from 0.01 to 0.99. Do not "
                 "clamp them", lambda ends, n:
          np.clip(ends, 0.01, 0.99)),
-        ("cut", "your code clamps the ends to the range from 0 to 1, but the ends of "
-                "a Wilson interval never lie outside this range",
+        ("cut", "your code clamps the ends to the range from 0 to 1. Omit this step, "
+                "because the ends of a Wilson interval never lie outside this range",
          lambda ends, n: np.clip(ends, 0, 1)),
         ("high-first", "your upper end comes first. Return the lower end first",
          lambda ends, n: ends[::-1]),
-        ("low-is-zero", "your lower end is always 0, but the interval should be "
-                        "two-sided",
+        ("low-is-zero", "your lower end is always 0. Compute it too, because the "
+                        "interval should be two-sided",
          lambda ends, n: np.array([0.0, ends[1]])),
-        ("high-is-one", "your upper end is always 1, but the interval should be "
-                        "two-sided",
+        ("high-is-one", "your upper end is always 1. Compute it too, because the "
+                        "interval should be two-sided",
          lambda ends, n: np.array([ends[0], 1.0])),
         ("low-alone", "both of your entries are the lower end. Return both ends",
          lambda ends, n: ends[[0, 0]]),
@@ -205,16 +206,16 @@ OPTIONS = [
          (1.0, 0.0)),
     ]),
     *_each("without", [
-        ("no-success-is-none", "your code treats k = 0 like n = 0, but only n = 0 is "
-                               "a special case",
+        ("no-success-is-none", "your code treats k = 0 like n = 0. Use the formula, "
+                               "because only n = 0 is a special case",
          lambda k, n: k == 0),
-        ("all-is-none", "your code treats k = n like n = 0, but only n = 0 is a "
-                        "special case",
+        ("all-is-none", "your code treats k = n like n = 0. Use the formula, because "
+                        "only n = 0 is a special case",
          lambda k, n: k == n),
-        ("one-is-none", "your code treats n = 1 like n = 0, but only n = 0 is a "
-                        "special case", lambda k, n: n < 2),
-        ("few-are-none", "your code treats n < 5 like n = 0, but only n = 0 is a "
-                         "special case",
+        ("one-is-none", "your code treats n = 1 like n = 0. Use the formula, because "
+                        "only n = 0 is a special case", lambda k, n: n < 2),
+        ("few-are-none", "your code treats n < 5 like n = 0. Use the formula, because "
+                         "only n = 0 is a special case",
          lambda k, n: n < 5),
     ]),
 ]  # fmt: skip

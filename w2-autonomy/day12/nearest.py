@@ -124,17 +124,19 @@ def _(tree, q):
       difference. Use the Euclidean distance
     sum-of-sizes: your code compares the nodes by the sum of the absolute differences.
       Use the Euclidean distance
-    wrapped: your code wraps the differences to [-pi, pi], but the joints have limits,
-      so q and q + 2 pi are different configurations
-    wrapped 2: your code takes the differences modulo 2 pi, but the joints have limits,
-      so q and q + 2 pi are different configurations
-    weighted: your coordinates have different weights. Use the same weight for all
-    weighted 2: your coordinates have different weights. Use the same weight for all
+    wrapped: your code wraps the differences to [-pi, pi]. Omit this step, because the
+      joints have limits, so q and q + 2 pi are different configurations
+    wrapped 2: your code takes the differences modulo 2 pi. Omit this step, because the
+      joints have limits, so q and q + 2 pi are different configurations
+    weighted: your code gives the coordinates different weights. Use the same weight for
+      all
+    weighted 2: your code gives the coordinates different weights. Use the same weight
+      for all
     from-the-origin: your code does not use q, so it returns the node nearest to the
-      origin
+      origin. Compute the distances from q
     q-added: your code adds q to the nodes. Subtract q from the nodes
-    most-alike: your code compares the dot products with q. A dot product also grows
-      with the norm of the node, so compare the distances
+    most-alike: your code compares the dot products with q. Compare the distances
+      instead, because a dot product also grows with the norm of the node
     place-of-the-distance: your code returns the position of the root in the order of
       the distances. Return the index of the smallest distance
     counted-from-the-end: your index counts from the end of the tree. Count from the
@@ -147,8 +149,9 @@ def _(tree, q):
       all coordinates
     cubed: your code cubes the differences, so they keep their signs and cancel. Square
       them
-    length-for-place: your code compares the norms of the nodes with the norm of q. Two
-      points with the same norm can be far apart
+    length-for-place: your code compares the norms of the nodes with the norm of q.
+      Compare the distances instead, because two points with the same norm can be far
+      apart
     angle: your code selects the node at the smallest angle to q. Select the node at the
       smallest distance
     second-nearest: your code returns the second nearest node. Return the nearest one
@@ -158,20 +161,22 @@ def _(tree, q):
       row. Compare it with the smallest distance so far
     first-that-is-nearer: your loop stops at the first row that is nearer than the root.
       Test all rows
-    rounded: your code rounds the distances before it compares them, so two different
-      distances can become equal
-    rounded 2: your code rounds the distances before it compares them, so two different
-      distances can become equal
-    root-left-out: your code skips the root, row 0, but the root can be the nearest node
+    rounded: your code rounds the distances before it compares them. Omit the rounding,
+      because two different distances can become equal
+    rounded 2: your code rounds the distances before it compares them. Omit the
+      rounding, because two different distances can become equal
+    root-left-out: your code skips the root, row 0. Include it, because the root can be
+      the nearest node
     root-left-out 2: your code skips the root, row 0, and counts the rows from row 1.
       Include the root, and count from row 0
-    last-left-out: your code skips the last row, but the last node can be the nearest
+    last-left-out: your code skips the last row. Include it, because the last node can
+      be the nearest
     over-all-numbers: your code searches for the minimum over all entries of the tree.
       Each row has one distance, so sum along axis 1
     sum-of-columns: your code sums the squares along axis 0. Sum along axis 1, because
       each row is a node
-    itself-left-out: your code skips a node that equals q, but such a node has distance
-      0, so it is the nearest one
+    itself-left-out: your code skips a node that equals q. Include such a node, because
+      its distance is 0
     largest-with-sign: your code compares the nodes by their largest signed difference.
       Use the Euclidean distance
     """

@@ -234,8 +234,9 @@ OPTIONS = [
            {"blocked": "on"}),
     Option("blocked-ends", "your code stops at the first blocked sample. Continue with "
                            "the next sample", {"blocked": "stop"}),
-    Option("near-enough", "your search ends when the trees are within one step of each "
-                          "other, but the other tree must reach the new node",
+    Option("near-enough", "your search ends when the trees are within one step of "
+                          "each other. End it only when the other tree reaches the "
+                          "new node",
            {"meets": "near"}),
     *(Option("stride", f"your edges have a length of {x:g} steps. The length should "
                        "be one step",
@@ -265,13 +266,14 @@ OPTIONS = [
     Option("not-turned-round", "the start's branch of your path runs from the newest "
                                "node to the root. Reverse this branch",
            {"joined": lambda a, b: a + b[1:]}),
-    Option("goal-branch-turned", "your code reverses the goal's branch, but this "
-                                 "branch already runs from the meeting point to the "
-                                 "goal",
+    Option("goal-branch-turned", "your code reverses the goal's branch. Keep its "
+                                 "order, because it already runs from the meeting "
+                                 "point to the goal",
            {"joined": lambda a, b: a[::-1] + b[::-1]}),
     Option("goal-branch-turned", "your code reverses the goal's branch and then omits "
-                                 "its first node. The branch already runs from the "
-                                 "meeting point to the goal",
+                                 "its first node. Keep the order of this branch, "
+                                 "which already runs from the meeting point to the "
+                                 "goal",
            {"joined": lambda a, b: a[::-1] + b[::-1][1:]}),
     Option("goal-to-start", "your path runs from the goal to the start. Reverse it",
            {"joined": lambda a, b: b[::-1] + a[1:]}),

@@ -144,10 +144,10 @@ def _(path, world, pairs):
       probability
     of-m-minus-one: your code multiplies u by m - 1. Use int(u m), which gives every row
       the same probability
-    neighbours-too: your code also removes row i, and it does so for neighbouring rows
-      too. Keep row i, and leave neighbouring rows unchanged
-    two-apart-left: your code skips rows that are two apart, but the point between them
-      can be removed
+    neighbours-too: your code also removes row i, and it does so even if the two rows
+      are neighbours. Keep row i, and leave neighbouring rows unchanged
+    two-apart-left: your code skips rows that are two apart. Test these rows too,
+      because the point between them can be removed
     hit-for-free: your code inverts the test, so it applies shortcuts that are blocked.
       Apply a shortcut if its edge is free
     unchanged: your code returns the original path. Apply each shortcut whose edge is

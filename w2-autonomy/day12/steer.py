@@ -85,8 +85,8 @@ def _(q, target, step):
       length
     fraction-at-most-all: your code uses `step` as a fraction of the displacement, at
       most 1, but `step` is a length
-    not-unit: your code does not divide the displacement to a far target by its norm, so
-      the norm of your step is wrong
+    not-unit: your code does not divide the displacement to a far target by its norm.
+      Divide it, so that the norm of your step equals `step`
     squared: your code divides the displacement by its squared norm. Divide it by the
       norm
     from-the-target: your code subtracts the step from the target. Start at q

@@ -63,49 +63,49 @@ def _(rng):
 
 @row.wrongs
 def _(successes, n):
-    """wald: your function returns the Wald interval, p +- z sqrt(p (1 - p) / n). This
-      interval uses the variance at k / n, so its width is 0 for k = 0 and for k = n
-    wald-cut: your function returns the Wald interval, p +- z sqrt(p (1 - p) / n),
-      clamped to [0, 1]. This interval uses the variance at k / n, so its width is 0 for
-      k = 0 and for k = n
-    centre-not-moved: your centre is k / n, but Wilson's centre is shifted towards one
-      half
-    width-without-z2: your code omits the term z^2 / (4 n^2) under the root. With this
-      term, the width is above 0 even for k = 0
-    not-divided: your code omits the division of the centre and of the half-width by 1 +
-      z^2 / n
+    """wald: your function returns the Wald interval, p +- z sqrt(p (1 - p) / n). Its
+      width is 0 for k = 0 and for k = n, so use the Wilson interval
+    wald-cut: your function returns the Wald interval, clamped to [0, 1]. The width of
+      this interval is 0 for k = 0 and for k = n, so use the Wilson interval
+    centre-not-moved: your centre omits the term z^2 / (2 n). Add it to k / n before you
+      divide by 1 + z^2 / n
+    width-without-z2: your code omits the term z^2 / (4 n^2) under the root. Add it, so
+      that the width is above 0 even for k = 0
+    not-divided: your code does not divide the centre and the half-width by 1 + z^2 / n.
+      Divide both by this factor
     middle-not-divided: your code divides only the half-width by 1 + z^2 / n. Divide the
       centre too
     width-not-divided: your code divides only the centre by 1 + z^2 / n. Divide the
       half-width too
-    root-n-forgotten: your code does not divide p (1 - p) by n, so more trials do not
-      make the interval narrower
+    root-n-forgotten: your code does not divide p (1 - p) by n. Divide it, because more
+      trials should make the interval narrower
     ninety: your z is 1.645, which gives a 90 % interval. Use 1.96
     ninety-without-z2: your z is 1.645 instead of 1.96, and your code omits the term z^2
-      / (4 n^2) under the root => both
+      / (4 n^2) under the root. Use 1.96, and add this term => both
     two-sigma: your z is 2. Use 1.96
     one-sigma: your z is 1, which gives a 68 % interval. Use 1.96
     ninety-nine: your z is 2.576, which gives a 99 % interval. Use 1.96
-    more-digits: your z is 1.959964, which is more exact than 1.96, but the task uses
-      1.96 so that all results agree
+    more-digits: your z is 1.959964, which is more exact than 1.96. Use 1.96, as in the
+      task, so that all results agree
     z-for-z2: your code uses z instead of z^2 in the centre and in the denominator. Use
       z^2 in both
     two-n: your centre contains z^2 / n. It should contain z^2 / (2 n)
     four-forgotten: your root contains z^2 / n^2. It should contain z^2 / (4 n^2)
     n-for-n2: your root contains z^2 / (4 n). It should contain z^2 / (4 n^2)
-    successes-for-p: your centre uses k instead of the proportion k / n
+    successes-for-p: your centre contains k instead of the proportion k / n. Divide k by
+      n
     failures: your code returns the interval for the failures, n - k. Return the
       interval for the successes
     high-first: your upper end comes first. Return the lower end first
     high-first 2: for n > 0, your upper end comes first. Return the lower end first
     middle-and-width: your code returns the centre and the half-width. Return the two
       ends
-    rule-of-three: for k = 0, your upper end is 3 / n, which comes from the rule of
-      three, not from the Wilson interval
-    rule-of-three 2: for k = 0, your upper end is 3 / n, and for k = n, your lower end
-      is 1 - 3 / n. These ends come from the rule of three, not from the Wilson interval
-    rule-of-three 3: for k = 0, your upper end is 3 / n, and for k = n, your lower end
-      is 1 - 3 / n. These ends come from the rule of three, not from the Wilson interval
+    rule-of-three: your upper end for k = 0 is 3 / n, as in the rule of three. Use the
+      Wilson interval for k = 0 too
+    rule-of-three 2: your interval for k = 0 and for k = n is the rule of three, with
+      the ends 3 / n and 1 - 3 / n. Use the Wilson interval for these cases too
+    rule-of-three 3: your interval for k = 0 and for k = n is the rule of three, with
+      the ends 3 / n and 1 - 3 / n. Use the Wilson interval for these cases too
     plus-four: your code uses the Wald interval with p = (k + 2) / (n + 4) (Agresti and
       Coull). Use the Wilson interval
     plus-four 2: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
@@ -120,7 +120,8 @@ def _(successes, n):
       should be -(2 k / n + z^2 / n)
     half-width: your interval is half as wide as it should be. Add and subtract the
       whole half-width
-    one-is-none: for n = 1, your code returns (0, 1), but only n = 0 is a special case
+    one-is-none: for n = 1, your code returns (0, 1). Use the formula, because only n =
+      0 is a special case
     """
     k, trials = successes, n
     n = n or 1  # of no trial see below
