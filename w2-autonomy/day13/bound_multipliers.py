@@ -19,8 +19,8 @@ def _(rng):
 
 @row.wrongs
 def _(H, f, lo, hi, x):
-    """sign: your multipliers have the opposite signs. If a bound moves in the direction
-      of the gradient, the cost increases
+    """sign: your multipliers have the opposite signs. Each one should be the entry of
+      the gradient, because the cost rises if a bound moves along the gradient
     absolute: your multipliers have lost their signs. If an upper bound moves up, the
       cost falls, so its multiplier should be negative
     upper-only: your code returns nonzero multipliers only for the upper bounds. A lower

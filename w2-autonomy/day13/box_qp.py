@@ -238,16 +238,16 @@ def _(H, f, lo, hi, x):
       change, so solve for them again
     no-limits: your result is the unconstrained minimiser -H^-1 f. Return the minimiser
       within the bounds
-    scaled-back: your step towards the unconstrained minimiser ends at the first bound.
-      From there, the free entries should move on
-    solved-once-more: your code clamps the unconstrained minimiser and solves for the
-      free entries again only once. Afterwards, another entry may reach a bound, or a
-      held entry may have to be released, so once is not enough
-    clipped-for-good: your code solves the free entries again until all are within the
-      bounds, but it never releases a clamped entry. Release an entry if the negative
+    scaled-back: your code stops at the first bound on the way to the unconstrained
+      minimiser. Hold the entry at this bound, and continue with the other entries
+    solved-once-more: your code clamps the unconstrained minimiser and then solves for
+      the free entries only once. Another entry may then violate a bound, or a held
+      entry may have to be released, so repeat this step
+    clipped-for-good: your code solves for the free entries until all are within the
+      bounds, but it never releases a clamped entry. Release an entry if its negative
       gradient points away from its bound
     held-for-good: your code never releases an entry that has reached a bound, or it
-      releases the wrong one. Release an entry if the negative gradient points away from
+      releases the wrong one. Release an entry if its negative gradient points away from
       its bound
     steepest-let-go: your code releases the held entry with the largest gradient,
       whatever its sign. Release the entry that the clamped step of task 13.4 moves most
@@ -255,20 +255,20 @@ def _(H, f, lo, hi, x):
       bounds again. Release only the entry that would move most
     stops-too-early: your loop ends although a held entry would still move by up to
       1e-4. Use a smaller tolerance
-    few-rounds: your code stops after ten iterations, but some problems need more.
-      Repeat until no held entry has to be released
-    upper-limits-passed: your step can pass the upper bounds. Stop the step at the first
-      bound that it reaches
+    few-rounds: your code stops after ten iterations, which is not enough for some
+      problems. Repeat until no held entry has to be released
+    upper-limits-passed: your step can violate the upper bounds. Stop the step at the
+      first bound that it reaches
     held-by-place: your code holds every entry that is at a bound. Release an entry if
-      the negative gradient points away from its bound
-    frees-the-wrong-ones: your code holds the wrong entries. Hold an entry if the
-      negative gradient points out of the box
+      its negative gradient points away from its bound
+    frees-the-wrong-ones: your code holds the wrong entries. Hold an entry at a bound if
+      its negative gradient points out of the box
     held-left-out: your right-hand side for the free entries leaves out the held
       entries. Use the gradient H x + f at the current x
     held-left-out 2: your right-hand side for the free entries leaves out the held
       entries. Use the gradient H x + f at the current x
     one-step: your result is x after one clamped Newton step. If one entry is held at a
-      bound, the optimal values of the other entries change, so one step is not enough
+      bound, the optimal values of the other entries change, so solve for them again
     full-hessian: your code solves for each step with the whole matrix H. The held
       entries do not move, so leave out their rows and columns
     whole-steps: your code takes each Newton step of the free entries in full and clamps

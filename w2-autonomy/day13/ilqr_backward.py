@@ -107,9 +107,10 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       has a factor 1/2
     drop-summed: your `drop` is the sum of its two entries. Return the two entries
       separately
-    drop-of-lu: the first entry of your `drop` uses lu. It should be the sum of k . Qu
-    drop-of-luu: the second entry of your `drop` uses luu. It should be the sum of k .
-      Quu k / 2
+    drop-of-lu: the first entry of your `drop` is the sum of k . lu. It should be the
+      sum of k . Qu
+    drop-of-luu: the second entry of your `drop` is the sum of k . luu k / 2. It should
+      be the sum of k . Quu k / 2
     drop-signs: your `drop` has the wrong sign. It should be the change in cost, so its
       first entry is negative
     drop-added: both entries of your `drop` are the sum of the two. Return the two
@@ -126,24 +127,25 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       in the LQR
     diagonal-of-Quu: your gains use only the diagonal of Quu. Solve with the whole
       matrix
-    last-step-left-out: your code leaves out the last step, so its k and K are 0
-    first-step-left-out: your code leaves out the first step, so its k and K are 0
+    last-step-left-out: your code omits the last time step, so its k and K are 0. Begin
+      the backward pass with the last time step
+    first-step-left-out: your code omits the first time step, so its k and K are 0. End
+      the backward pass with the first time step
     forwards: your pass goes from the first step to the last. At first, only the
       cost-to-go of the final state is known, so begin with the last step
     lux-not-in-K: your code omits lux in K, but not in Vx and Vxx. Use Qux, which
       contains lux, in K, Vx and Vxx
-    Vx-not-in-k: your k uses only lu. Use Qu, which also contains fu^T Vx
+    Vx-not-in-k: your k contains only lu. Use Qu instead, which also contains fu^T Vx
     mu-halved-each-step: your code halves mu in each step. Use the same mu in all steps
-    lx-of-the-next: your code uses lx of the next step in each step. Use lx of the same
-      step
+    lx-of-the-next: your code uses lx of step t + 1 in step t. Use lx of step t instead
     drop-mean: your code divides `drop` by the number of steps. It should be the sum
       over the steps
     drop-halved: your code halves both entries of `drop`. Only the second entry has a
       factor 1/2
     first-slopes: your code uses fx and fu of the first step in every step. Use fx and
-      fu of the same step
+      fu of step t in step t
     last-slopes: your code uses fx and fu of the last step in every step. Use fx and fu
-      of the same step
+      of step t in step t
     K-reversed: your k and K are in reverse order. The first step should come first
     K-reversed 2: your k is in reverse order. The first step should come first
     K-reversed 3: your K is in reverse order. The first step should come first

@@ -40,21 +40,23 @@ def clipped_first(H, f, lo, hi, x):
 
 @row.wrongs
 def _(H, f, lo, hi, x):
-    """gradient-only: your result is the largest entry of the gradient. At the
-      minimiser, the gradient of an entry that is held at a bound need not be 0, so
-      clamp the step to the bounds
-    no-abs-the-other-way: your code omits the absolute value, so it ignores every entry
-      that decreases. Take the absolute value
+    """gradient-only: your result is the largest absolute entry of the gradient. At the
+      minimiser, this entry need not be 0 at a bound, so clamp x minus the gradient to
+      the bounds
+    no-abs-the-other-way: your code omits the absolute value of the differences, so it
+      ignores every entry that decreases. Take the absolute value of each difference
+      first
     not-compared: your result is the clamped point itself. Return the largest absolute
       difference between x and this point
-    free-only: your code uses only the entries that are between their bounds. An entry
-      at a bound also contributes if its negative gradient points into the box
+    free-only: your code uses only the entries that are between their bounds. Use all
+      entries, because the negative gradient of an entry at a bound may point into the
+      box
     lower-only: your code clamps the step only at the lower bounds. Clamp it at the
       upper bounds too
     upper-only: your code clamps the step only at the upper bounds. Clamp it at the
       lower bounds too
-    cost-gap: your result is the decrease in cost that the clamped step causes. The
-      residual should be the largest change of an entry of x
+    cost-gap: your result is the decrease in cost that the clamped step causes. Return
+      the largest absolute change of an entry of x instead
     first-only: your code uses only the first entry. Use the entry that changes most
     last-only: your code uses only the last entry. Use the entry that changes most
     share-of-x: your code divides the residual by the largest entry of x if this entry
@@ -77,14 +79,14 @@ def _(H, f, lo, hi, x):
       Compare the new point with x itself
     clipped-first: your code first clamps x, so the residual ignores the distance of x
       from the box. Use x itself
-    slope-that-counts: your result is the largest gradient entry that does not push
-      against an active bound. Clamp the step to both bounds, because the step may also
-      reach the opposite bound
-    slope-that-counts 2: your result is the largest gradient entry that does not push
-      against an active bound. Clamp the step to both bounds, because the step may also
-      reach the opposite bound
-    signed-limit: your code ignores every entry at a bound. Ignore such an entry only if
-      its negative gradient points out of the box
+    slope-that-counts: your code ignores an entry only if it is at a bound and its
+      negative gradient points out of the box. Clamp x minus the gradient to both
+      bounds, because other entries may violate a bound too
+    slope-that-counts 2: your code ignores an entry only if it is at a bound and its
+      negative gradient points out of the box. Clamp x minus the gradient to both
+      bounds, because other entries may violate a bound too
+    signed-limit: your code ignores every entry at a bound. Clamp x minus the gradient
+      to both bounds for all entries, because an entry at a bound may move into the box
     """
     s = H @ x + f
     d = x - np.clip(x - s, lo, hi)
