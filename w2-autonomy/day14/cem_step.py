@@ -58,13 +58,13 @@ def of_best(samples, best):
 
 @row.wrongs(hidden={"nan-is-zero": "no NaN of the lab has a score below 0 beside it"})
 def _(mean, std, noise, scores, elite):
-    """nan-first: your elite contains a sample with the score NaN. The function
-      np.argsort puts NaN last, so an order reversed with [::-1] begins with NaN
-    nan-first 2: your elite contains a sample with the score NaN. The function
-      np.argsort puts NaN last, so an order reversed with [::-1] begins with NaN
-    nan-first 3: your elite contains a sample with the score NaN. The function
-      np.argsort puts NaN last, so an order reversed with [::-1] begins with NaN. It
-      also reverses the order of equal scores
+    """nan-first: your elite contains a sample with the score NaN. Sort -scores with
+      np.argsort instead of reversing the order, because np.argsort puts NaN last
+    nan-first 2: your elite contains a sample with the score NaN. Sort -scores with
+      np.argsort instead of reversing the order, because np.argsort puts NaN last
+    nan-first 3: your elite contains a sample with the score NaN, and your order of
+      equal scores is reversed. Sort -scores with np.argsort(-scores, kind='stable'),
+      which puts NaN last
     ties-last-first: your code keeps the last of several equal scores. Keep the first
       ones
     std-kept: your `std` is unchanged. Return the standard deviation of the elite
@@ -73,8 +73,7 @@ def _(mean, std, noise, scores, elite):
       the standard deviation about the mean of the elite
     one-spread-for-all: all parameters in your result have the same standard deviation.
       Each parameter should have its own, so use axis=0
-    best-left-out: your code leaves out the best sample, so the elite begins with the
-      second one
+    best-left-out: your elite begins with the second best sample. Include the best one
     nan-is-zero: your code treats NaN as a score of 0. Treat NaN as worse than all other
       scores
     elite-one-less: your elite has one sample too few. Does your slice end too early?

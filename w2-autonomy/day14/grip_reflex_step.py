@@ -99,18 +99,18 @@ def _(finger_position, force, normal, mu, fraction, step):
     stopped-at-0: your finger position stops at 0. It should stop at LOW[4]
     stopped-too-early: your code leaves out a step that would go beyond LOW[4]. The step
       should end at LOW[4]
-    outside-only: your pads close only if a margin is below 0. Such a contact already
-      slips, so close the pads earlier
+    outside-only: your pads close only if a margin is below 0, when the contact already
+      slips. Close them if a margin is below `fraction` times mu f_n
     the-other-way: your code reverses the comparison, so the pads close if a margin is
-      large. Close them if a margin is small
+      large. Close them if a margin is smaller than `fraction` times mu f_n
     closes-to-the-limit: your pads close to the limit at once. Subtract one step per
       call
     a-step-a-contact: your code subtracts one step for each contact that nearly slips.
       Subtract only one step per call
-    sum-of-margins: your code compares the sum of the margins with the limit. Compare
-      each margin, because one contact that nearly slips is enough
-    mean-of-margins: your code compares the mean of the margins with the limit. Compare
-      each margin, because one contact that nearly slips is enough
+    sum-of-margins: your code compares the sum of the margins with `fraction`. Compare
+      each margin with `fraction` times its own mu f_n
+    mean-of-margins: your code compares the mean of the margins with `fraction` times
+      the mean of mu f_n. Compare each margin with `fraction` times its own mu f_n
     """
     margin = cone_margin(force, normal, mu)
     press = np.sum(force * normal, axis=1)

@@ -38,9 +38,12 @@ def _(success):
       Return the ends themselves
     failures: your code computes the interval from the number of failures. Use the
       number of successes
-    one-sided: your interval uses 1.645, which gives 90 %. A 95 % interval needs 1.96
-    ninety-nine: your interval uses 2.576, which gives 99 %. A 95 % interval needs 1.96
-    n-less-one: your code divides the results by n - 1. Divide by n
+    one-sided: your interval uses 1.645, which gives a 90 % interval. Use 1.96 for a 95
+      % interval
+    ninety-nine: your interval uses 2.576, which gives a 99 % interval. Use 1.96 for a
+      95 % interval
+    n-less-one: your code divides the rate and both ends of its interval by n - 1.
+      Divide them by n, the number of trials
     per-cent: your three results are in per cent. Return fractions
     """
     won = np.asarray(success, float)
