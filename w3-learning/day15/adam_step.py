@@ -46,12 +46,12 @@ row.cases(
 
 @row.wrongs
 def _(theta, grad, m, v, k, rate):
-    """no-correction: your code does not divide the averages by 1 - 0.9^k and 1 -
-      0.999^k. The averages start at 0, so without this correction they are too small at
-      first
+    """no-correction: your code omits the bias correction of the averages m and v.
+      Divide m by 1 - 0.9^k and v by 1 - 0.999^k, because both averages start at 0
     corrected-kept: your code returns the corrected averages. Return m and v without the
       correction, because the next step would correct them again
-    eps-in-the-root: your code adds 1e-8 inside the square root. Add 1e-8 to the root
+    eps-in-the-root: your code adds 1e-8 inside the square root. Add it outside instead,
+      after taking the square root
     betas-swapped: your code swaps the decay rates. The rate of m is 0.9, and the rate
       of v is 0.999
     weights-swapped: your code gives the gradient the weight 0.9 and its square the
@@ -60,7 +60,8 @@ def _(theta, grad, m, v, k, rate):
       weights are 0.1 and 0.001, so that m and v are averages
     times-for-power: your code divides the averages by 1 - 0.9 k and 1 - 0.999 k. Raise
       the decay rates to the power k instead
-    old-averages: your update uses m and v from before this step. Update m and v first
+    old-averages: your code updates theta with the old averages m and v. Update m and v
+      first
     corrections-swapped: your code divides m by 1 - 0.999^k and v by 1 - 0.9^k. Swap the
       two corrections, because the decay rate of m is 0.9
     """

@@ -44,9 +44,9 @@ def _(rng):
 def _(x, W1, b1, W2, b2, W3, b3):
     """tanh-at-the-end: your code applies tanh to the output as well. The output layer
       should be linear, because an action can be any number
-    relu: your hidden layers use max(0, z) instead of tanh(z)
-    logistic: your hidden layers use the logistic function 1 / (1 + exp(-z)) instead of
-      tanh(z)
+    relu: your code applies max(0, z) in the hidden layers. Use tanh(z) instead
+    logistic: your code applies the logistic function 1 / (1 + exp(-z)) in the hidden
+      layers. Use tanh(z) instead
     """
 
     def by(f):

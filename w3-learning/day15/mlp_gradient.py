@@ -63,20 +63,21 @@ def backwards(
 
 @row.wrongs
 def _(x, target, W1, b1, W2, b2, W3, b3):
-    """slope-forgotten: your code omits the derivative of tanh. Multiply the gradient of
-      each hidden layer by 1 - h^2, where h is the output of this layer
-    slope-squared: your code squares the derivative of tanh. Multiply by 1 - h^2 once
-      per layer
-    slope-1-minus-h: your derivative of tanh is 1 - h with the layer's output h. It
-      should be 1 - h^2
+    """slope-forgotten: your code omits the derivative of tanh. Multiply the gradient
+      with respect to the output h of each hidden layer by 1 - h^2
+    slope-squared: your code squares the derivative of tanh. Multiply the gradient with
+      respect to the output h of each hidden layer by 1 - h^2 only once
+    slope-1-minus-h: your derivative of tanh is 1 - h, where h is the output of the
+      hidden layer. It should be 1 - h^2
     slope-logistic: your code uses h (1 - h), the derivative of the logistic function.
-      The derivative of tanh is 1 - h^2 with the layer's output h
-    slope-of-h: your derivative of tanh is 1 - tanh(h)^2 with the layer's output h. This
-      output is already a tanh, so the derivative is 1 - h^2
-    slope-of-z: your derivative of tanh is 1 - z^2, where z is the layer's value before
-      tanh. It should be 1 - h^2 with the layer's output h
-    slope-not-passed-on: your gradients of W1 and b1 lack the derivative of the second
-      tanh. Multiply by 1 - h^2 before you go back to the first layer
+      Use 1 - h^2 instead, where h is the output of the hidden layer
+    slope-of-h: your derivative of tanh is 1 - tanh(h)^2, where h is the output of the
+      hidden layer. Use 1 - h^2, because h is already a tanh
+    slope-of-z: your derivative of tanh is 1 - z^2, where z is the value of the hidden
+      layer before tanh. Use 1 - h^2 with the output h = tanh(z)
+    slope-not-passed-on: your gradients with respect to W1 and b1 omit the derivative of
+      the second tanh. Multiply by 1 - h^2 of the second hidden layer before you
+      multiply by W2^T
     tanh-at-the-end: your code applies tanh to the output. The last layer of `mlp` is
       linear, so omit this tanh
     tanh-at-the-end 2: your code applies tanh to the output and multiplies by its
@@ -84,15 +85,16 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
     divided-twice: your code divides every gradient by the number of rows a second time.
       The gradient of the loss already contains the factor 1 / (n m), so sum over the
       rows
-    weights-mean: your gradients of the weights are means over the rows. The gradient of
-      the loss already contains the factor 1 / (n m), so sum over the rows
+    weights-mean: your gradients with respect to the weights are means over the rows.
+      The gradient of the loss already contains the factor 1 / (n m), so sum over the
+      rows
     slope-at-the-end: your gradient with respect to the output contains a derivative of
       tanh. The last layer is linear, so omit this factor
-    transposed: your gradients of the weights are transposed. Each gradient should have
-      the shape of its weight matrix
-    bias-mean: your gradients of the biases are means over the rows. The gradient of the
-      loss already contains the factor 1 / (n m), so sum over the rows
-    summed-loss: your gradient belongs to the sum of the squared errors. The loss is the
+    transposed: your gradients with respect to the weights are transposed. Each gradient
+      should have the shape of its weight matrix
+    bias-mean: your gradients with respect to the biases are means over the rows. The
+      gradient of the loss already contains the factor 1 / (n m), so sum over the rows
+    summed-loss: your gradients belong to the sum of the squared errors. The loss is the
       mean of the squared errors, so divide by n m
     rows-only: your code divides the gradient only by the number of rows. The loss is a
       mean over rows and columns, so divide by n m

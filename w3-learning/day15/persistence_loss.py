@@ -52,8 +52,8 @@ def _(action, episode):
     """across-episodes: your code includes the change from the last row of an episode to
       the first row of the next episode. Omit these pairs, because the policy repeats an
       action only within an episode
-    start-from-0: your code includes the first row of each episode, with 0 as its last
-      action. Omit this row, because it has no last action
+    start-from-0: your code includes the first row of each episode and uses 0 as its
+      previous action. Omit this row, because it has no previous action
     counted-as-0: your code counts the pairs across two episodes as changes of 0. Omit
       these pairs from the mean
     summed-over-columns: your code sums the squares over the columns. Take the mean over
@@ -69,8 +69,8 @@ def _(action, episode):
       pairs
     across-columns: your code takes the differences between columns. Take the
       differences between rows, along axis 0
-    by-number: your code joins all rows with the same number, but this number can occur
-      again in a later episode. Use only pairs of adjacent rows
+    by-number: your code joins all rows with the same episode number, although this
+      number can occur again in a later episode. Use only pairs of adjacent rows
     """
     change = action[1:] - action[:-1]
     same = episode[1:] == episode[:-1]
