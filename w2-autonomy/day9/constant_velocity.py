@@ -28,7 +28,8 @@ def _(dt, accel_psd):
     Q-diagonal-only: your Q is diagonal. A velocity change during dt also changes the
       angle, so the off-diagonal entries should be accel_psd dt^2 / 2
     Q-of-a-held-acceleration: your Q is correct for an acceleration that is constant
-      over dt (dt^4 / 4, dt^3 / 2, dt^2). White noise gives dt^3 / 3, dt^2 / 2 and dt
+      over dt (dt^4 / 4, dt^3 / 2, dt^2). Use the entries for white noise instead, dt^3
+      / 3, dt^2 / 2 and dt
     Q-is-q-1: your Q is accel_psd times the identity matrix. Multiply accel_psd by
       [[dt^3 / 3, dt^2 / 2], [dt^2 / 2, dt]] instead
     Q-is-q-dt-1: your Q is accel_psd dt times the identity matrix. The angle is the

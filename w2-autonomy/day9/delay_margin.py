@@ -36,17 +36,16 @@ for slug, says, other in (
                         "sqrt(kp^2 + kd^2 w^2), because the two terms differ in phase "
                         "by 90 degrees",
      {"w": lambda kp, kd: np.sqrt(kp + kd**2)}),
-    ("minus-in-the-root", "your code subtracts 4 kp^2 under the inner root. The "
-                          "solution of w^4 - kd^2 w^2 - kp^2 = 0 contains the root of "
-                          "kd^4 + 4 kp^2",
+    ("minus-in-the-root", "your code subtracts 4 kp^2 under the inner root. Add it "
+                          "instead, because w^2 solves x^2 - kd^2 x - kp^2 = 0",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(abs(kd**4 - 4 * kp**2))) / 2)}),
     ("half-left-out", "your code does not halve kd^2 in the quadratic formula. The "
                       "roots of x^2 - kd^2 x - kp^2 = 0 are kd^2 / 2 +- sqrt(kd^4 / "
                       "4 + kp^2)",
      {"w": lambda kp, kd: np.sqrt(kd**2 + np.sqrt(kd**4 + kp**2))}),
-    ("neither-squared", "your quadratic formula uses kd and kp instead of their "
+    ("neither-squared", "your quadratic formula contains kd and kp instead of their "
                         "squares. The unknown of the quadratic equation is w^2, so "
-                        "the formula contains kd^2, kd^4 and kp^2",
+                        "use kd^2, kd^4 and kp^2",
      {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**2 + 4 * kp)) / 2)}),
     ("inverted", "your code inverts the fraction in atan. The phase lead is atan(kd w "
                  "/ kp), which is 0 without a derivative term (kd = 0)",
@@ -54,8 +53,8 @@ for slug, says, other in (
     ("from-the-far-side", "your angle is pi minus the phase lead. The phase margin is "
                           "measured from -180 degrees, so it is the phase lead itself",
      {"angle": lambda kp, kd, w: np.pi - np.arctan(kd * w / kp)}),
-    ("in-cycles", "your code divides the angle by the frequency in Hz, but the angle "
-                  "is in radians, so divide by w in rad/s",
+    ("in-cycles", "your code divides the angle by the frequency in Hz. Divide it by w "
+                  "in rad/s, because the angle is in radians",
      {"by": lambda w: w / (2 * np.pi)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(margin, **other))

@@ -84,9 +84,8 @@ for slug, says, other in (
                        "identity matrix I. The Joseph form also contains the term K R "
                        "K^T",
      {"new_P": lambda P, K, S, H, R: without(K, H) @ P @ without(K, H).T}),
-    ("P-K-R-K-besides", "your code adds K R K^T to P - K S K^T, but P - K S K^T is "
-                        "already the new covariance. The term K R K^T belongs only to "
-                        "the Joseph form",
+    ("P-K-R-K-besides", "your code adds K R K^T to P - K S K^T. Omit this term, which "
+                        "belongs only to the Joseph form",
      {"new_P": lambda P, K, S, H, R: P - K @ S @ K.T + K @ R @ K.T}),
     ("x-only-where-read", "your code corrects only the measured entries of x. The "
                           "other entries are correlated with the measured ones, so "
