@@ -70,7 +70,7 @@ for slug, says, other in (
                      "principal point",
      {"ray": lambda K, h, d: (h + K[:, 2] * [1, 1, 0])
                       / [K[0, 0], K[1, 1], 1]}),
-    ("centre-swapped", "your code swaps cx and cy. The coordinate cx belongs to u",
+    ("centre-swapped", "your code swaps cx and cy. Use cx for u and cy for v",
      {"ray": lambda K, h, d: right_ray(swapped(K), h)}),
     ("x-and-y-turned-round", "your code negates x and y. Keep their signs, because x "
                              "points to the right like u, and y points down like v",

@@ -29,8 +29,8 @@ def _(fovy, width, height):
       fovy is the vertical field of view
     two-focal-lengths: your code computes fx from the width. The pixels are square, so
       use f from the height for both axes
-    sine-for-tangent: your f uses the sine of half the angle. Use the tangent, because
-      half the height and f are the two legs of a right triangle
+    sine-for-tangent: your code computes f with the sine of half the angle. Use the
+      tangent, because half the height and f are the two legs of a right triangle
     middle-of-a-pixel: your principal point is ((width - 1) / 2, (height - 1) / 2), as
       in OpenCV. Use (width / 2, height / 2), because in this task (0, 0) is the corner
       of the image

@@ -75,7 +75,7 @@ for slug, says, other in (
     ("centre-taken-off", "your code subtracts the principal point. Add the principal "
                          "point",
      {"times": lambda K, p: upright(K, p, centre=-1.0)}),
-    ("centre-swapped", "your code swaps cx and cy. The coordinate cx belongs to u",
+    ("centre-swapped", "your code swaps cx and cy. Use cx for u and cy for v",
      {"times": lambda K, p: p @ swapped(K).T}),
     ("f-forgotten", "your code omits the focal length. Multiply x / z by fx and y / z "
                     "by fy to convert these ratios to pixels",

@@ -135,10 +135,12 @@ for slug, says, other in (
     ("rotation-sign", "your columns for omega have the wrong sign. The velocity "
                       "omega x p is equal to -[p] omega",
      {"twist": lambda p: by_twist(p, 1.0)}),
-    ("camera-moves", "your Jacobian has the opposite sign, as for a moving camera. In "
-                     "this task the points move, and the camera does not",
+    ("camera-moves", "your Jacobian has the opposite sign, as for a moving camera. "
+                     "Negate it, because in this task the points move and the camera "
+                     "does not",
      {"told": np.negative}),
-    ("y-up", "your row for v has the wrong sign. Both y and v point down",
+    ("y-up", "your row for v has the wrong sign. Keep the sign of y, because y and v "
+             "both point down",
      {"told": lambda J: J * [[1], [-1]]}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(jacobian, **other))
