@@ -105,8 +105,8 @@ def _(p, half_extents):
     abs-forgotten-zero-inside: your code omits the absolute value of p, and it returns 0
       inside the box. Use |p| - half_extents, and return minus the distance to the
       nearest face inside the box => both
-    not-rooted: your code omits the square root, so outside the box the result is a
-      squared distance
+    not-rooted: your code omits the square root, so the result outside the box is a
+      squared distance. Take the square root
     nearest-corner: your code returns the distance to the nearest corner. Use |p| -
       half_extents instead, because a face or an edge can be nearer
     largest-half: your code uses the largest half extent on every axis. Use the half
@@ -118,8 +118,8 @@ def _(p, half_extents):
       it is positive. Add the largest entry, and only where it is negative
     first-axis-added: your term min(..., 0) uses only the x entry of |p| - half_extents.
       Use the largest of the three entries
-    largest-with-max: your code uses max(..., 0) instead of min(..., 0), so it adds the
-      largest entry outside the box, and the result inside is 0
+    largest-with-max: your code uses max(..., 0) for the largest entry of |p| -
+      half_extents. Use min(..., 0), which is 0 outside the box and negative inside
     sum-inside: inside the box, your code adds the three face distances. Return minus
       the smallest of them
     mean-inside: inside the box, your code returns the mean of the three face distances.

@@ -65,8 +65,8 @@ def _(a0, a1, r):
       and the upper corner
     corner-and-size: your code returns the lower corner and the full sides. Return the
       lower and the upper corner
-    half-not-halved: your centre is correct, but the extent on each side is |a1 - a0|
-      instead of |a1 - a0| / 2
+    half-not-halved: your code uses |a1 - a0| as the extent on each side of the centre.
+      Use |a1 - a0| / 2 instead
     longest-side: your box is a cube, because your code uses the longest side along
       every axis. Each axis has its own extent
     longest-side 2: your box extends from the midpoint by r plus the length of the axis

@@ -71,8 +71,8 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, b0, b1):
-    """not-clamped: your code does not clamp s and t to [0, 1], so the points can lie
-      beyond the ends of the segments
+    """not-clamped: your code does not clamp s and t. Clamp them to [0, 1], because
+      otherwise the points can lie beyond the ends of the segments
     clamped-apart: your code clamps s and t independently. Clamping one of them changes
       the optimal value of the other, so compute the other one again
     s-not-again: your code does not recompute s after it clamps t. Compute s again,
@@ -81,14 +81,14 @@ def _(a0, a1, b0, b1):
       because the optimal t depends on s
     s-not-again 3: your code does not recompute t after the last clamp of s. Compute t
       again, because the optimal t depends on s
-    t-not-cut: your code never clamps t, so the point of the second segment can lie
-      beyond an end
-    s-not-cut: your code never clamps s, so the point of the first segment can lie
-      beyond an end
-    cut-below-only: your code clamps s and t at 0 but not at 1, so the points can lie
-      beyond the ends
-    cut-above-only: your code clamps s and t at 1 but not at 0, so the points can lie
-      before the start points
+    t-not-cut: your code never clamps t. Clamp it to [0, 1], because otherwise the point
+      of the second segment can lie beyond an end
+    s-not-cut: your code never clamps s. Clamp it to [0, 1], because otherwise the point
+      of the first segment can lie beyond an end
+    cut-below-only: your code clamps s and t only at 0. Clamp them at 1 too, because
+      otherwise the points can lie beyond the ends
+    cut-above-only: your code clamps s and t only at 1. Clamp them at 0 too, because
+      otherwise the points can lie before the start points
     ends-only: your code assumes that one of the closest points is an end. Use the s and
       t of the infinite lines where both lie in [0, 1], because both points can lie
       between the ends
@@ -118,7 +118,7 @@ def _(a0, a1, b0, b1):
       has its own parameter
     shares: your code returns s u and t v. Add the start points a0 and b0
     beyond-the-ends: your code measures the two points from a1 and b1. Measure them from
-      a0 and b0, because s and t are measured from there
+      a0 and b0, where s and t are 0
     t-from-the-end: your code measures t from b1. Measure t from b0
     s-from-the-end: your code measures s from a1. Measure s from a0
     unit-directions: your code normalises u and v, so s and t are lengths in metres and
@@ -153,10 +153,10 @@ def _(a0, a1, b0, b1):
       Recompute s in both cases
     one-end-cut 2: your code recomputes s where t is above 1, but not where t is below
       0. Recompute s in both cases
-    t-one-end-cut: your code clamps t at 1 but not at 0, so the point of the second
-      segment can lie before b0
-    t-one-end-cut 2: your code clamps t at 0 but not at 1, so the point of the second
-      segment can lie beyond b1
+    t-one-end-cut: your code clamps t only at 1. Clamp it at 0 too, because otherwise
+      the point of the second segment can lie before b0
+    t-one-end-cut 2: your code clamps t only at 0. Clamp it at 1 too, because otherwise
+      the point of the second segment can lie beyond b1
     a-start-alone: your code returns the start of the first segment and the nearest
       point of the second. Compute s as well, because the closest point can be anywhere
       on the first segment

@@ -115,11 +115,11 @@ def _(rng):
 def _(s, distance, delta_q, radii):
     """no-bound: your code adds the distance in metres to s. First divide it by the
       bound on the motion per unit of s
-    signs-kept: your sum keeps the signs of delta_q, so opposite rotations cancel. Take
-      absolute values
+    signs-kept: your code adds the entries of delta_q with their signs, so opposite
+      rotations cancel. Take the absolute value of each entry first
     signs-kept 2: your code takes the absolute value after the sum, so opposite
-      rotations cancel. Take the absolute value for each joint
-    fastest-joint-only: your bound uses only the largest product |delta_q_i| * radii_i.
+      rotations cancel. Take the absolute value of each entry of delta_q first
+    fastest-joint-only: your code uses only the largest product |delta_q_i| * radii_i.
       Add the products of all joints, because their motions add up
     fastest-joint-only 2: your bound is the largest |delta_q_i| times the largest
       radius. Add |delta_q_i| * radii_i over all joints, because their motions add up
@@ -133,8 +133,8 @@ def _(s, distance, delta_q, radii):
       shorter than necessary. Use the radius of each joint
     reach-forgotten: your code omits the radii. Multiply each |delta_q_i| by radii_i,
       which bounds the motion in metres
-    dq-forgotten: your bound omits delta_q. A longer motion moves the arm further, so
-      the bound should grow with delta_q
+    dq-forgotten: your code omits delta_q in the bound. A longer motion moves the arm
+      further, so the bound should grow with delta_q
     of-what-is-left: your code multiplies the step by 1 - s. The argument delta_q
       belongs to the whole motion, so omit this factor
     of-what-is-left 2: your code divides the step by 1 - s. The argument delta_q belongs
@@ -159,8 +159,8 @@ def _(s, distance, delta_q, radii):
       itself
     still-before-touching: your code tests for a motion of 0 before it tests for
       contact. If the arm is in contact, return s even if no joint moves
-    reach-backwards: your radii are in reverse order, but the first radius belongs to
-      joint 1
+    reach-backwards: your code uses the radii in reverse order. The first radius belongs
+      to joint 1
     reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii.
       Multiply each |delta_q_i| by its own radius, and then add the products
     reaches-summed 2: your code multiplies the largest |delta_q| by the sum of the

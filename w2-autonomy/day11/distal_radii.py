@@ -57,12 +57,12 @@ def _(rng):
 
 @row.wrongs
 def _(link_lengths, link_radii):
-    """to-the-tip-only: your bound uses only the last link. A point on an earlier link
-      can be farther away, so take the maximum over all distal links
-    own-link-only: your bound uses only the joint's own link. Take the maximum over the
-      distal links too, because the joint also moves them
-    next-only: your bound stops at the next link. Use the bound of the next joint
-      instead of the radius of the next link
+    """to-the-tip-only: your code uses only the last link for the bound. A point on an
+      earlier link can be farther away, so take the maximum over all distal links
+    own-link-only: your code uses only the joint's own link for the bound. Take the
+      maximum over the distal links too, because the joint also moves them
+    next-only: your code stops at the next link. Use the bound of the next joint instead
+      of the radius of the next link
     from-the-base: your code measures from the base. Measure from joint i to its distal
       links
     offset-one-late: for joint i, your code uses link_lengths[i + 1]. The distance from
@@ -106,24 +106,25 @@ def _(link_lengths, link_radii):
       Use only the links distal to the joint
     less-the-base 2: your code measures the farthest distal point from the base. Measure
       it from the joint
-    largest-far-behind: your bound adds the largest distal link radius to the distance
-      of the last link. Add each radius to the distance of its own link, and then take
-      the maximum
-    largest-far-behind 2: your bound adds the largest link radius beyond the joint's own
+    largest-far-behind: your code adds the largest distal link radius to the distance of
+      the last link. Add each radius to the distance of its own link, and then take the
+      maximum
+    largest-far-behind 2: your code adds the largest link radius beyond the joint's own
       link to the distance of the last link. Add each radius to the distance of its own
       link, and then take the maximum
     own-offset-repeated: your code repeats the joint's own link length for every distal
       link. Use the length of each link
     offset-of-the-one-before: for joint i, your code uses link_lengths[i - 1]. The
       distance from link i to the next link is link_lengths[i]
-    far-of-the-next: your code uses the radius of the next link instead of the joint's
-      own link radius
+    far-of-the-next: your code uses the radius of the next link in the bound of a joint.
+      Use the radius of the joint's own link instead
     own-left-out: your code omits the joint's own link. Include it, because the farthest
       point can be on this link
-    own-or-tip: your bound uses only the joint's own link and the last link. Include all
-      links between them, because a point on one of them can be farther away
-    two-behind-only: your bound uses only the joint's own link and the next two links.
-      Include all distal links, because the joint moves all of them
+    own-or-tip: your code uses only the joint's own link and the last link for the
+      bound. Include all links between them, because a point on one of them can be
+      farther away
+    two-behind-only: your code uses only the joint's own link and the next two links for
+      the bound. Include all distal links, because the joint moves all of them
     sum-not-largest: your code adds the link radius to the maximum of the link length
       and the bound of the next joint. Take the maximum of the link radius and the sum
       of the other two

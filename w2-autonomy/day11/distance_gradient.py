@@ -97,8 +97,8 @@ def _(J_space, p, o, link):
       up to the link, because all of them move it
     columns-before-dropped: your code keeps the joints distal to the link. Keep the
       joints up to the link
-    rotation-forgotten: your result contains only v, not omega x p. Either the term
-      omega x p is missing, or it uses p - o instead of p
+    rotation-forgotten: your result contains only v. Add omega x p, with p itself and
+      not with p - o, because the velocity of p is v + omega x p
     rotation-only: your code omits v. Use v + omega x p, which is the velocity of p
     cross-the-other-way: your cross product has the wrong order. Use v + omega x p,
       which is the velocity of p

@@ -140,9 +140,12 @@ def _(qd, grad, distance, gain):
       -gain * distance
     distance-sign-lost: your code uses the absolute value of the distance. A negative
       distance should give a positive bound, which moves the arm away
-    gain-forgotten: your bound omits the gain. It should be -gain * distance
-    distance-forgotten: your bound omits the distance. It should be -gain * distance
-    distance-over-gain: your code divides the distance by the gain. Multiply the two
+    gain-forgotten: your code omits the gain in the bound. The bound should be -gain *
+      distance
+    distance-forgotten: your code omits the distance in the bound. The bound should be
+      -gain * distance
+    distance-over-gain: your code divides the distance by the gain. Multiply the
+      distance by the gain instead
     wrong-side: your code reverses the comparison, so it changes the allowed velocities
       and keeps the others. Change qd only if grad . qd is below the bound
     leaving-forbidden: your code also limits velocities away from the obstacle. Limit
@@ -190,8 +193,8 @@ def _(qd, grad, distance, gain):
       Change qd along the whole grad instead, because this change is the smallest
     those-that-come-near 2: your code stops joints that approach the obstacle. Keep the
       part of the velocity that is allowed
-    rate-added: your correction uses the sum of the bound and grad . qd. It should use
-      the bound minus grad . qd
+    rate-added: your code adds grad . qd to the bound in the correction. Subtract grad .
+      qd from the bound instead
     lack-alone: your code returns the correction alone. Add it to qd
     """
     bound = -gain * distance
