@@ -177,7 +177,8 @@ def _(a, b, c, limits, sd):
     gravity-forgotten: your code omits the term c. Subtract it from both torque limits
     gravity-sign: your code adds c to the limits. Subtract c
     rest-added: your code adds b sd^2 + c to the limits. Subtract b sd^2 + c
-    rest-not-divided: your code does not divide b sd^2 + c by `a`
+    rest-not-divided: your code divides the torque limits by `a`, but not b sd^2 + c.
+      Divide both by `a`
     one-sided: your term b sd^2 + c has the wrong sign in the lower bound. Subtract this
       term from both torque limits
     size-of-rest: your code reduces both limits by |b sd^2 + c|. This torque should

@@ -126,8 +126,8 @@ def _(path, world, pairs, answer):
 def _(path, world, pairs):
     """not-checked: your code removes points without testing the new edge. Remove them
       only if this edge is free
-    one-node-short: your code removes point j too, so the new edge ends at a point that
-      was not tested
+    one-node-short: your code removes point j too. Keep it, because the tested edge ends
+      at point j
     one-node-short 2: your code removes point i too. Keep path[: i + 1]
     one-too-many: your code keeps the point before j. Remove all points between i and j
     end-lost: each of your shortcuts also removes the last point of the path. Keep the

@@ -113,8 +113,8 @@ def _(q, target, step):
     from-the-origin: your step starts at the origin. Start at q
     square-compared: your code compares the squared distance with the step. Compare the
       distance itself
-    two-coordinates: your distance uses only the first two coordinates. Use all
-      coordinates
+    two-coordinates: your code uses only the first two coordinates for the distance. Use
+      all coordinates
     root-of-the-mean: your code takes the root of the mean of the squares. Take the root
       of the sum of the squares
     length-of-the-target: your code divides the displacement by the norm of the target.
