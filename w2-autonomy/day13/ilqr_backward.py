@@ -125,8 +125,8 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       so both contain a minus sign
     K-sign 2: your K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x
       in the LQR
-    diagonal-of-Quu: your gains use only the diagonal of Quu. Solve with the whole
-      matrix
+    diagonal-of-Quu: your code uses only the diagonal of Quu for the gains. Solve with
+      the whole matrix Quu
     last-step-left-out: your code omits the last time step, so its k and K are 0. Begin
       the backward pass with the last time step
     first-step-left-out: your code omits the first time step, so its k and K are 0. End

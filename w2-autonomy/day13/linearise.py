@@ -107,7 +107,8 @@ def _(M, stiffness, damping, h):
       factor, because the input is a torque and not an acceleration
     B-halved-below: your code halves the lower half of B. The torque acts for the whole
       step, so omit the factor 1/2
-    B-without-damping: your B uses M^-1 without the damping. Use (M + h D)^-1
+    B-without-damping: your code uses M^-1 in B, which omits the damping. Use (M + h
+      D)^-1 instead
     slope-halved-above: your code halves the stiffness in the upper left block of A. The
       new velocity moves the joints for the whole step, so omit the factor 1/2
     B-halved-above: your code halves the upper half of B. The new velocity moves the

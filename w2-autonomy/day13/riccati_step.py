@@ -37,9 +37,10 @@ def _(P, A, B, Q, R):
     gain-sign: your K has the wrong sign. The minus sign is already in u = -K x
     A-P-AT: your code uses A P A^T, which propagates a covariance. Use A^T P A instead,
       which propagates a cost-to-go
-    Q-for-P: your gain uses Q instead of P, the cost-to-go of the next state
-    Q-in-the-gain: your gain uses P + Q instead of P. The cost x . Q x of this step does
-      not depend on u, so omit Q
+    Q-for-P: your code computes the gain with Q instead of P. Use P, the cost-to-go of
+      the next state
+    Q-in-the-gain: your code computes the gain with P + Q instead of P. Omit Q, because
+      the cost x . Q x of this step does not depend on u
     K-R-K-subtracted: your code subtracts K^T R K from Q + A^T P A. Subtract K^T (R +
       B^T P B) K instead, by which the optimal input reduces the cost-to-go
     motion-forgotten: your P omits the cost-to-go of the next state. Add the term (A - B
