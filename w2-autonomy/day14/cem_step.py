@@ -68,7 +68,8 @@ def _(mean, std, noise, scores, elite):
     ties-last-first: your code keeps the last of several equal scores. Keep the first
       ones
     std-kept: your `std` is unchanged. Return the standard deviation of the elite
-    n-minus-one: your standard deviation divides by elite - 1. Divide by elite
+    n-minus-one: your code divides by elite - 1 in the standard deviation. Divide by
+      elite instead
     about-the-old-mean: your code takes the standard deviation about the old mean. Take
       the standard deviation about the mean of the elite
     one-spread-for-all: all parameters in your result have the same standard deviation.

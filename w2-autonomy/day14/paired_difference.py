@@ -24,8 +24,10 @@ def _(first, second):
     """unpaired: your code adds the variances of the two policies, as for independent
       samples. Both policies ran on the same cubes, so use the standard deviation of the
       differences
-    n-minus-one: your standard deviation divides by n - 1. Divide by n
-    n-minus-one 2: your standard error divides by sqrt(n - 1). Divide by sqrt(n)
+    n-minus-one: your code divides by n - 1 in the standard deviation. Divide by n
+      instead
+    n-minus-one 2: your code divides by sqrt(n - 1) in the standard error. Divide by
+      sqrt(n) instead
     root-of-the-mean-square: your code takes the standard deviation about 0. Take the
       standard deviation about the mean difference
     interval: your second result is 1.96 standard errors. Return one standard error

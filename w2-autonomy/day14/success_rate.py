@@ -38,9 +38,9 @@ def _(success):
       Return the ends themselves
     failures: your code computes the interval from the number of failures. Use the
       number of successes
-    one-sided: your interval uses 1.645, which gives a 90 % interval. Use 1.96 for a 95
+    one-sided: your code uses z = 1.645, which gives a 90 % interval. Use 1.96 for a 95
       % interval
-    ninety-nine: your interval uses 2.576, which gives a 99 % interval. Use 1.96 for a
+    ninety-nine: your code uses z = 2.576, which gives a 99 % interval. Use 1.96 for a
       95 % interval
     n-less-one: your code divides the rate and both ends of its interval by n - 1.
       Divide them by n, the number of trials
