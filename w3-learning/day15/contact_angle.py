@@ -34,7 +34,7 @@ def _(phi, distance, R):
     """small-angle: your function returns phi exp(distance / R). This is correct only
       for small angles, where sin(phi) is almost phi. Integrate d(phi)/ds = sin(phi) / R
       instead
-    one-step: your function adds distance sin(phi) / R once. The rate sin(phi) / R
+    one-step: your function adds distance * sin(phi) / R once. The rate sin(phi) / R
       changes along the path, so integrate the rate
     whole-angle: your function multiplies tan(phi) by exp(distance / R). Multiply
       tan(phi / 2) by this factor, because d(phi)/ds = sin(phi) / R

@@ -27,8 +27,8 @@ row.cases(
 
 @row.wrongs
 def _(x):
-    """n-minus-one: your standard deviation divides by n - 1. Divide by n, so that
-      normalised columns have a standard deviation of exactly 1
+    """n-minus-one: your code divides by n - 1 in the standard deviation. Divide by n,
+      so that normalised columns have a standard deviation of exactly 1
     about-0: your second row is the root mean square. Subtract the mean first, so that
       the result is the standard deviation
     one-for-all: your code uses one mean and one standard deviation for all columns.
