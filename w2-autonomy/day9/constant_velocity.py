@@ -68,7 +68,7 @@ def _(dt, accel_psd):
 
 @row.wrong(
     "answers-swapped",
-    "your code swaps the two results. It should return F first, then Q",
+    "your code swaps F and Q. It should return F first, then Q",
 )
 def _(dt, accel_psd):
     return constant_velocity(dt, accel_psd)[::-1]

@@ -48,7 +48,7 @@ def _(residual, threshold):
       there is none, as np.argmax does. Return the last such joint, or 0 if there is
       none
     first-joint 3: your function returns the first joint over its threshold, counted
-      from 0. Return the last such joint, counted from 1 => both
+      from 0. Return the last such joint, counted from 1 instead => both
     from-zero: your code counts the joints from 0. The first joint has the number 1,
       because 0 means no contact
     from-zero 2: your code counts the joints from 0 and returns -1 without a contact.
@@ -66,25 +66,26 @@ def _(residual, threshold):
       both
     largest: your function returns the joint with the largest residual. A longer lever
       arm causes a larger torque, so this joint can be far from the contact. Return the
-      last joint over its threshold
+      last joint over its threshold instead
     largest 2: your function returns the joint with the largest residual, even if this
-      residual is below its threshold. Return the last joint over its threshold
+      residual is below its threshold. Return the last joint over its threshold instead
     largest 3: your function returns the joint with the largest signed residual, without
-      a threshold. Return the last joint over its threshold
+      a threshold. Return the last joint over its threshold instead
     most-over: your function returns the joint that exceeds its threshold by the largest
-      amount. Return the last joint over its threshold
+      amount. Return the last joint over its threshold instead
     most-over 2: your function returns the joint that exceeds its threshold by the
-      largest factor. Return the last joint over its threshold
+      largest factor. Return the last joint over its threshold instead
     how-many: your function returns how many joints are over their thresholds. Return
-      the number of the last such joint
+      the number of the last such joint instead
     how-many 2: your function returns how many joints have a residual above the
       threshold. Return the number of the last joint whose absolute residual is above
       its threshold
     any: your function returns 1 if any joint is over its threshold, else 0. Return the
-      number of the last such joint
+      number of the last such joint instead
     all-or-none: your function returns 7 as soon as one joint is over its threshold.
-      Return the number of the last such joint
+      Return the number of the last such joint instead
     last-of-none: your function returns 7 if no joint is over its threshold. Return 0
+      instead
     from-the-tip: your code counts the joints from the tip. Count the joints from the
       base, where joint1 has the number 1
     until-one-does-not: your search stops at the first joint under its threshold. Test

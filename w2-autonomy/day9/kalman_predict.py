@@ -31,7 +31,7 @@ def _(x, P, F, Q):
     Q-carried-too: your code transforms both P and Q with F. Transform only P, and add Q
       afterwards
     entry-by-entry: your function multiplies F and P entry by entry with `*`. Use `@`
-      for the matrix product
+      for the matrix product instead
     """
     Ps = {
         "transposed-on-the-left": F.T @ P @ F + Q,

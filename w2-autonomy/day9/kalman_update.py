@@ -78,7 +78,8 @@ for slug, says, other in (
     ("P-I-minus-K-H", "your new covariance is I - K H with the identity matrix I. It "
                       "should be (I - K H) P",
      {"new_P": lambda P, K, S, H, R: without(K, H)}),
-    ("P-minus-K-H", "your new covariance is P - K H. Subtract K H P, which is K S K^T",
+    ("P-minus-K-H", "your new covariance is P - K H. Subtract K H P instead, which is "
+                    "K S K^T",
      {"new_P": lambda P, K, S, H, R: P - K @ H}),
     ("P-joseph-short", "your new covariance is (I - K H) P (I - K H)^T with the "
                        "identity matrix I. The Joseph form also contains the term K R "
@@ -92,7 +93,7 @@ for slug, says, other in (
                           "correct all entries with K",
      {"new_x": lambda x, K, y, z, H: np.where((H != 0.0).any(axis=0), x + K @ y, x)}),
     ("x-by-the-reading", "your code multiplies K by the reading z. Multiply K by the "
-                         "innovation z - H x",
+                         "innovation z - H x instead",
                          {"new_x": lambda x, K, y, z, H: x + K @ z}),
     ("nis-with-R", "your code computes the NIS with R^-1. The innovation also "
                    "contains the error of x, so use S^-1 instead",

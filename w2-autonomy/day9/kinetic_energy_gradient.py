@@ -43,8 +43,8 @@ for slug, says, other in (
                    "links, V_i rotates in the opposite direction, so its derivative "
                    "is -ad(S_i) V_i",
      {"factor": 1.0}),
-    ("halved", "your code halves the result. The twist appears twice in the energy V . "
-               "G V / 2, so the factor 1/2 cancels in the derivative",
+    ("halved", "your code halves the result. Omit the factor 1/2, which cancels "
+               "because the twist appears twice in the energy V . G V / 2",
      {"factor": -0.5}),
     ("own-link-only", "your code uses only the contribution of link i. Joint i also "
                       "rotates all distal links, so sum the contributions of links i "

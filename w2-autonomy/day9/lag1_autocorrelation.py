@@ -56,15 +56,16 @@ for slug, says, other in (
     ("two-sizes", "your denominator is the product of the norms of y[1:] and y[:-1]. "
                   "Use the sum of all n squares",
      {"squares": lambda d: np.sqrt((d[1:] @ d[1:]) * (d[:-1] @ d[:-1]))}),
-    ("by-n-sigma", "your code divides the mean product by the standard deviation. "
-                   "Divide it by the variance, so that the unit cancels",
+    ("by-n-sigma", "your code divides the mean of the products by the standard "
+                   "deviation. Divide it by the variance instead, so that the unit "
+                   "cancels",
      {"squares": lambda d: np.sqrt(d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
     ("mean-of-products", "your code divides the mean of n - 1 products by the mean of "
                          "n squares. Divide the sum of the products by the sum of the "
                          "squares",
      {"share": lambda n: n / (n - 1)}),
     ("variance-for-sum", "your code divides the sum of the products by the mean of "
-                         "the squares. Divide it by the sum of the squares",
+                         "the squares. Divide it by the sum of the squares instead",
      {"share": lambda n: n}),
     ("mean-by-sum", "your code divides the mean of the products by the sum of the "
                     "squares. Divide the sum of the products by the sum of the "
@@ -91,7 +92,8 @@ for slug, says, other in (
 def _(y):
     """two-means: your code uses a separate mean and norm for y[1:] and y[:-1], as
       np.corrcoef does. Use the mean of y for both, and the sum of all n squares
-    of-the-changes: your result is the autocorrelation of the changes of y. Use y itself
+    of-the-changes: your result is the autocorrelation of the changes of y. Compute it
+      from y itself
     changes-squared: your result is the Durbin-Watson statistic, which is 2 for white
       noise. Use the products of neighbouring entries instead
     """

@@ -82,7 +82,8 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
 
 
 @row.wrong(
-    "answers-swapped", "your code swaps the two results. Return the residual first"
+    "answers-swapped",
+    "your code swaps the residual and the integral. Return the residual first",
 )
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
     step = momentum_observer_step(

@@ -33,7 +33,7 @@ for slug, says, other in (
                              "the sum of n NIS values has n m degrees of freedom",
      {"c": lambda n, m: 2 / (9 * (n + m))}),
     ("whole-division", "your c is 0, because // discards the fraction of 2 / (9 n m). "
-                       "Use the operator /",
+                       "Use the operator / instead",
      {"c": lambda n, m: 2 // (9 * n * m)}),
     ("shift-forgotten", "your function uses 1 as the mean of the cube root. Use 1 - c "
                         "instead", {"middle": lambda c: 1.0}),
