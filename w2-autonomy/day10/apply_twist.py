@@ -70,6 +70,7 @@ def _(T, xi):
     slides-left-out: if omega is 0, your code returns T unchanged. Translate T by v
       instead
     identity-where-still: your code returns the identity matrix for xi = 0. Return T
+      instead
     turns-only: your code does not use v, the linear part of xi. Use the exponential of
       the whole twist
     slides-only: your code does not use omega, the angular part of xi. Use the

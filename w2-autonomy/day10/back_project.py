@@ -67,7 +67,7 @@ for slug, says, other in (
                          "pixel. Subtract it before you divide by the focal length",
      {"ray": lambda K, h, d: h / [K[0, 0], K[1, 1], 1]}),
     ("centre-added", "your code adds the principal point to the pixel. Subtract the "
-                     "principal point",
+                     "principal point instead",
      {"ray": lambda K, h, d: (h + K[:, 2] * [1, 1, 0])
                       / [K[0, 0], K[1, 1], 1]}),
     ("centre-swapped", "your code swaps cx and cy. Use cx for u and cy for v",
@@ -78,8 +78,9 @@ for slug, says, other in (
     ("x-left", "your code negates x. Keep its sign, because x and u both point to the "
                "right",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, 1, 1]}),
-    ("f-multiplied", "your code multiplies the distance from the principal point by f. "
-                     "Divide it by f", {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
+    ("f-multiplied", "your code multiplies the distance from the principal point by "
+                     "f. Divide it by f instead",
+     {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
                                * [K[0, 0], K[1, 1], 1]}),
     ("f-forgotten", "your code omits the focal length. Divide the distance from the "
                     "principal point by f",
@@ -107,7 +108,7 @@ for slug, says, other in (
                     "depth",
      {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
     ("depth-in-the-pixel", "your code replaces the 1 in (u, v, 1) by the depth. "
-                           "Multiply K^-1 (u, v, 1) by the depth",
+                           "Multiply K^-1 (u, v, 1) by the depth instead",
      {"ray": lambda K, h, d: right_ray(K, h * [1, 1, 0] + d * [0, 0, 1]),
       "scaled": not_scaled}),
     ("moved-before-scaled", "your code transforms the ray by T before it multiplies "

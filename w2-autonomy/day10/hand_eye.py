@@ -128,7 +128,8 @@ for slug, says, other in (
                    "because the axes of small rotations are less accurate and should "
                    "get less weight", {"turn": partial(turns, unit=True)}),
     ("positions-for-rotations", "your code fits the rotation to the translations of A "
-                                "and B. Fit the rotation to their rotation vectors",
+                                "and B. Fit the rotation to their rotation vectors "
+                                "instead",
      {"turn": between_places}),
     ("R-transposed-in-d", "your code rotates t_B by R^T. Use R itself, which maps the "
                           "camera frame to the hand frame",

@@ -48,7 +48,7 @@ def _(T, source, target):
     step-twice 2: your code applies T twice. The motion is fitted to the source itself,
       so it already contains T
     by-sizes-added: your code chooses the nearest point by the sum of the absolute
-      differences. Use the Euclidean distance
+      differences. Use the Euclidean distance instead
     nearer-half: your code fits only the half of the pairs that are nearer to each
       other. Fit all pairs
     each-once: your code uses each target point at most once. Omit this restriction,

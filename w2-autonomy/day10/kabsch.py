@@ -96,7 +96,8 @@ for slug, says, other in (
                     "rotation",
      {"centre": lambda X: np.zeros(3)}),
     ("one-number-for-the-centre", "your centroid is one mean of all coordinates "
-                                  "together. Use axis=0 for one mean per coordinate",
+                                  "together. Use axis=0 for one mean per coordinate "
+                                  "instead",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
     ("about-the-first", "your code subtracts the first points instead of the "
                         "centroids. Subtract the centroids, because otherwise the "

@@ -73,7 +73,7 @@ for slug, says, other in (
                          "and not to pixel (0, 0)",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
     ("centre-taken-off", "your code subtracts the principal point. Add the principal "
-                         "point",
+                         "point instead",
      {"times": lambda K, p: upright(K, p, centre=-1.0)}),
     ("centre-swapped", "your code swaps cx and cy. Use cx for u and cy for v",
      {"times": lambda K, p: p @ swapped(K).T}),
@@ -89,11 +89,11 @@ for slug, says, other in (
                     "T_cam_world already maps to a frame with y down and z forward, "
                     "so keep the signs",
      {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
-    ("divided-by-range", "your code divides the point by its distance from the camera. "
-                         "Divide it by its depth z",
+    ("divided-by-range", "your code divides the point by its distance from the "
+                         "camera. Divide it by its depth z instead",
      {"divided": lambda h, p: h[:, :2] / length(p)}),
-    ("divided-by-range", "your code divides the point by its distance from the camera. "
-                         "Divide it by its depth z",
+    ("divided-by-range", "your code divides the point by its distance from the "
+                         "camera. Divide it by its depth z instead",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2] * length(p), length(p)])}),
     ("first-depth-for-all", "your code divides all points by the depth of the first "

@@ -95,16 +95,17 @@ for slug, says, other in (
                                "be -fx x / z^2 and -fy y / z^2, because a point that "
                                "comes nearer moves away from the principal point",
                                {"pixel": third(lambda z: 0.0)}),
-    ("depth-column-sign", "your derivatives with respect to z have the wrong sign. The "
-                          "derivative of x / z is -x / z^2",
+    ("depth-column-sign", "your derivatives with respect to z have the wrong sign. "
+                          "The derivative of x / z with respect to z is -x / z^2",
                           {"pixel": third(lambda z: -1.0)}),
     ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
-                   "derivative of x / z is -x / z^2", {"pixel": third(lambda z: z)}),
+                   "derivative of x / z with respect to z is -x / z^2",
+     {"pixel": third(lambda z: z)}),
     ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
-                   "derivative of x / z is -x / z^2",
+                   "derivative of x / z with respect to z is -x / z^2",
                    {"pixel": third(lambda z: z * z)}),
     ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
-                   "derivative of x / z is -x / z^2",
+                   "derivative of x / z with respect to z is -x / z^2",
                    {"pixel": third(lambda z: 1 / z)}),
     ("f-forgotten", "your code omits the focal lengths, so your entries are the "
                     "derivatives of x / z and y / z. Multiply the rows by fx and fy",
@@ -132,8 +133,8 @@ for slug, says, other in (
     ("halves-swapped",
      "your columns are in the order (v; omega). The order should be (omega; v)",
      {"told": lambda J: J[..., HALF]}),
-    ("rotation-sign", "your columns for omega have the wrong sign. The velocity "
-                      "omega x p is equal to -[p] omega",
+    ("rotation-sign", "your columns for omega have the wrong sign. Use -[p], because "
+                      "the velocity omega x p is equal to -[p] omega",
      {"twist": lambda p: by_twist(p, 1.0)}),
     ("camera-moves", "your Jacobian has the opposite sign, as for a moving camera. "
                      "Negate it, because in this task the points move and the camera "

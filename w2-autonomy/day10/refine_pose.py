@@ -99,7 +99,7 @@ def steps(
 
 for slug, says, other in (
     ("three-steps", "your result is the pose after three steps. Return the pose after "
-                    "ten", {"n": 3}),
+                    "ten steps", {"n": 3}),
     ("J-of-the-guess", "your code uses the Jacobian of the guess in every step. "
                        "Evaluate the Jacobian at the current pose", {"held": True}),
     ("twist-halves-swapped", "your code treats the step as (v; omega). The columns of "
@@ -121,10 +121,10 @@ for slug, says, other in (
                             {"since": lambda T, guess: guess}),
     ("half-steps", "your code halves each step, so ten steps leave a thousandth of the "
                    "error. Use the whole step", {"factor": 0.5}),
-    ("rows-mixed", "the rows of your J are in the order all u, then all v, but your "
+    ("rows-mixed", "the rows of your J contain first all u, then all v, but your "
                    "errors are in another order. Use the same order for both",
      {"solve": mixed}),
-    ("error-mixed", "your errors are in the order all u, then all v, but the rows of "
+    ("error-mixed", "your errors contain first all u, then all v, but the rows of "
                     "your J are in another order. Use the same order for both",
      {"solve": mixed_off}),
 ):  # fmt: skip
