@@ -67,7 +67,7 @@ def _(rng):
 @row.wrongs
 def _(p, half_extents):
     """zero-inside: inside the box, your code returns 0. Return minus the distance to
-      the nearest face
+      the nearest face instead
     inside-positive: inside the box, your result is positive. It should be negative
     sign: your result has the opposite sign. The distance should be positive outside the
       box
@@ -80,14 +80,14 @@ def _(p, half_extents):
     depth-added-outside: outside the box, your code adds the largest entry of |p| -
       half_extents to the norm. Add this entry only inside the box, where it is negative
     inside-by-the-norm: inside the box, your code returns minus the norm of all three
-      face distances. Return minus the smallest of them
+      face distances. Return minus the smallest of these distances instead
     farthest-face-inside: inside the box, your code uses the distance to the farthest
       face. Use the nearest face, which has the largest entry of |p| - half_extents
     farthest-face-inside 2: your term min(..., 0) uses the smallest entry of |p| -
       half_extents, which belongs to the farthest face. Use the largest entry, which
       belongs to the nearest face
     to-the-middle-inside: inside the box, your code returns minus the distance to the
-      centre. Use the distance to the nearest face
+      centre. Use the distance to the nearest face instead
     to-the-middle: your code returns the distance to the centre, so the size of the box
       has no effect. Use the distance to the surface of the box instead
     box-as-a-ball: your code treats the box as a sphere. Compare each coordinate with
@@ -121,11 +121,11 @@ def _(p, half_extents):
     largest-with-max: your code uses max(..., 0) for the largest entry of |p| -
       half_extents. Use min(..., 0), which is 0 outside the box and negative inside
     sum-inside: inside the box, your code adds the three face distances. Return minus
-      the smallest of them
+      the smallest of these distances instead
     mean-inside: inside the box, your code returns the mean of the three face distances.
-      Return minus the smallest of them
+      Return minus the smallest of these distances instead
     one-number-inside: inside the box, your code always returns -1. Return minus the
-      distance to the nearest face
+      distance to the nearest face instead
     least-half-inside: inside the box, your code always returns minus the smallest half
       extent, which is correct only at the centre. Return minus the distance to the
       nearest face
@@ -140,13 +140,13 @@ def _(p, half_extents):
       instead, which is the excess beyond a face
     cut-at-one: your code limits the excess beyond a face to 1. Omit this limit
     corner-or-face: near an edge, your code returns the larger of the two excesses.
-      Return their norm
+      Return the norm of both excesses instead
     two-of-three: near a corner, your code uses only the two largest excesses. Use all
       three
     first-two-only: if the point lies beyond a z face, your code returns only the
       largest excess. Take the norm of all positive excesses
     mean-square: your code takes the root of the mean of the squares. Take the root of
-      the sum of the squares
+      the sum of the squares instead
     smallest-taken-off: your code subtracts the smallest absolute value of |p| -
       half_extents, even outside the box. Subtract this value only inside the box
     edges-negative: near an edge or a corner, your result has the wrong sign. The

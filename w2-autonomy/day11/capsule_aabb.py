@@ -52,8 +52,8 @@ def _(a0, a1, r):
       to this corner
     radius-inwards: your radius has the wrong sign, so the box shrinks. Subtract the
       radius from the lower corner and add it to the upper corner
-    radius-added-to-both: your code adds the radius to both corners. Subtract it from
-      the lower corner
+    radius-added-to-both: your code adds the radius to both corners. Subtract the radius
+      from the lower corner instead
     flat-ends: your box is the box of a cylinder with flat ends. A capsule ends in
       spheres, which extend by r along every axis
     corners-not-sorted: your code uses a0 and a1 as the lower and the upper corner. Take
@@ -62,9 +62,9 @@ def _(a0, a1, r):
       together. Take the minimum and the maximum of each coordinate separately
     swapped: your upper corner comes first. Return the lower corner first
     centre-and-half: your code returns the centre and the half extents. Return the lower
-      and the upper corner
+      and the upper corner instead
     corner-and-size: your code returns the lower corner and the full sides. Return the
-      lower and the upper corner
+      lower and the upper corner instead
     half-not-halved: your code uses |a1 - a0| as the extent on each side of the centre.
       Use |a1 - a0| / 2 instead
     longest-side: your box is a cube, because your code uses the longest side along

@@ -151,21 +151,21 @@ def _(a0, a1, r, T_world_box, half_extents):
     world-axes: your code translates the ends to the box, but it does not rotate them
       into the box frame. Use R^T (x - t)
     turned-the-other-way: your code multiplies the ends by R. Use R^T to express them in
-      the box frame
+      the box frame instead
     pose-not-inverted: your code applies T_world_box, which maps from the box frame to
       the world frame. Apply its inverse
     place-forgotten: your code rotates the ends but does not translate them. Subtract
       the position of the box first
     turned-then-moved: your code subtracts the position of the box after the rotation.
       Subtract it first: R^T (x - t)
-    t-added: your code adds the position of the box. Subtract it: R^T (x - t)
+    t-added: your code adds the position of the box. Subtract it instead, R^T (x - t)
     radius-forgotten: your code omits the radius, so the result is the distance from the
       axis to the box. Subtract r
-    radius-added: your code adds the radius. Subtract the radius
+    radius-added: your code adds the radius. Subtract the radius instead
     radius-to-the-box: your code enlarges the box by the radius, which keeps its corners
-      sharp. Subtract the radius from the distance
+      sharp. Subtract the radius from the distance instead
     radius-to-the-box 2: your code enlarges the box by the radius, which keeps its
-      corners sharp. Subtract the radius from the distance
+      corners sharp. Subtract the radius from the distance instead
     way-not-turned: your code expresses the start of the axis in the box frame, but not
       its direction. Multiply a1 - a0 by R^T
     wrong-half-kept: your search keeps the wrong part of the interval, so it finds the
@@ -193,13 +193,13 @@ def _(a0, a1, r, T_world_box, half_extents):
     not-into-the-box: your ends stay in the world frame. Express them in the box frame
       with R^T (x - t)
     radius-off-the-box: your code reduces the box by the radius. Subtract the radius
-      from the distance
+      from the distance instead
     size-of-the-depth: your code uses the absolute value of the depth for an axis inside
-      the box. Keep the sign
+      the box. Keep the sign of the depth
     size-of-the-distance: your code takes the absolute value of the result. The distance
       should be negative for shapes that overlap
     radius-off-the-box 2: your code reduces the box by the radius. Subtract the radius
-      from the distance
+      from the distance instead
     largest-half: your code uses the largest half extent on every axis. Use the half
       extent of each axis instead
     largest-half 2: your code uses the largest half extent on every axis. Use the half
@@ -213,7 +213,7 @@ def _(a0, a1, r, T_world_box, half_extents):
     half-turned: your code rotates half_extents, which contains lengths and not a
       vector. Rotate the ends of the axis into the box frame instead
     mean-along: your code returns the mean of the distances along the axis. Return the
-      minimum
+      smallest distance instead
     edges-only: your code computes the distance to the edges of the box. Use `box_sdf`,
       because a face can be nearer and the axis can enter the box
     faces-only: your code tests only the ends and the points where the axis crosses the
@@ -227,7 +227,7 @@ def _(a0, a1, r, T_world_box, half_extents):
     radius-times-the-length: your code multiplies the radius by the length of the axis.
       Subtract r itself
     share-returned: your code returns the parameter s of the nearest point. Return the
-      distance at this point
+      distance at this point instead
     five-sections: your search stops too early. Each step leaves 0.618 of the interval,
       so make more steps
     five-sections 2: your search stops too early. Each step leaves 0.618 of the

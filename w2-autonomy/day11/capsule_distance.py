@@ -88,10 +88,13 @@ def _(a0, a1, ra, b0, b1, rb):
     as-diameters: your code subtracts half of each radius. Subtract ra and rb
       themselves, because they are radii and not diameters
     twice-the-radii: your code subtracts twice each radius. Subtract each radius once
-    radii-differ: your code subtracts the difference of the radii. Subtract their sum
-    radii-differ 2: your code subtracts the difference of the radii. Subtract their sum
+    radii-differ: your code subtracts the difference of the radii. Subtract the sum of
+      the radii instead
+    radii-differ 2: your code subtracts the difference of the radii. Subtract the sum of
+      the radii instead
     larger-radius: your code subtracts only the larger radius. Subtract both radii
-    radii-multiplied: your code subtracts the product of the radii. Subtract their sum
+    radii-multiplied: your code subtracts the product of the radii. Subtract the sum of
+      the radii instead
     never-negative: your code returns 0 for capsules that overlap. Return the negative
       value, because their signed distance is negative
     sign-lost: your code takes the absolute value of the result. The distance should be
@@ -109,15 +112,15 @@ def _(a0, a1, ra, b0, b1, rb):
     of-end-pairs: your code uses the nearest pair of ends as the closest points. Use the
       points of task 11.1, because the closest points can lie between the ends
     largest-part: your code uses the largest component of p - o as the distance of the
-      closest points p and o. Use the norm of p - o
+      closest points p and o. Use the norm of p - o instead
     sum-of-parts: your code uses the sum of the absolute components of p - o as the
-      distance of the closest points p and o. Use the norm of p - o
+      distance of the closest points p and o. Use the norm of p - o instead
     in-the-plane 2: your code does not use x in the distance. Use all three coordinates
     in-the-plane 3: your code does not use y in the distance. Use all three coordinates
     product-of-radii: your code subtracts the square root of the product of the radii.
-      Subtract their sum
+      Subtract the sum of the radii instead
     squares-of-radii: your code subtracts the squares of the radii. Subtract the radii
-      themselves
+      themselves instead
     over-the-radii: your code divides the distance by the sum of the radii. Subtract the
       sum instead
     ends-and-middles: your code tests only the ends and the midpoints of both axes. Use
@@ -133,15 +136,17 @@ def _(a0, a1, ra, b0, b1, rb):
     root-of-squares 2: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
       tangent. The distance is |p - o| - (ra + rb)
     least-part: your code uses the smallest component of p - o as the distance of the
-      closest points p and o. Use the norm of p - o
+      closest points p and o. Use the norm of p - o instead
     parts-with-signs: your code uses the sum of the components of p - o, with their
       signs, as the distance of the closest points p and o. Use the norm of p - o
+      instead
     parts-with-signs 2: your code uses the sum of the components of p - o, with their
       signs, as the distance of the closest points p and o. Use the norm of p - o
+      instead
     mean-square: your code takes the root of the mean of the squares. Take the root of
-      the sum of the squares
+      the sum of the squares instead
     lengths-differ: your code uses the difference of the norms of the closest points p
-      and o. Use the norm of p - o
+      and o. Use the norm of p - o instead
     cut-once: your code clamps the distance at 0 between the subtractions of ra and rb.
       Omit this clamp, because the distance may become negative
     one-number-inside: your code always returns -1 for capsules that overlap. Return the

@@ -119,8 +119,8 @@ def _(a0, a1, b0, b1):
     shares: your code returns s u and t v. Add the start points a0 and b0
     beyond-the-ends: your code measures the two points from a1 and b1. Measure them from
       a0 and b0, where s and t are 0
-    t-from-the-end: your code measures t from b1. Measure t from b0
-    s-from-the-end: your code measures s from a1. Measure s from a0
+    t-from-the-end: your code measures t from b1. Measure t from b0 instead
+    s-from-the-end: your code measures s from a1. Measure s from a0 instead
     unit-directions: your code normalises u and v, so s and t are lengths in metres and
       cannot be clamped to [0, 1]. Use u and v themselves
     nearest-to-the-middle: your code returns the midpoint of the second segment and the
@@ -164,7 +164,7 @@ def _(a0, a1, b0, b1):
       point of the second. Compute s as well, because the closest point can be anywhere
       on the first segment
     farthest: your code selects the farthest of the candidate pairs. Select the nearest
-      pair
+      pair instead
     one-round: your code starts with s = 0 and then computes t and s only once, which
       does not reach the minimum. Start with the s of the infinite lines, clamped to [0,
       1]
@@ -172,7 +172,7 @@ def _(a0, a1, b0, b1):
       which does not reach the minimum. Start with the s of the infinite lines, clamped
       to [0, 1]
     difference: both of your rows contain the difference of the two points. Return the
-      points themselves
+      points themselves instead
     """
     u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
     right = thrice(a, b, c, d, e)

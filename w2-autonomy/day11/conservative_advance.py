@@ -126,9 +126,9 @@ def _(s, distance, delta_q, radii):
     norm-of-dq: your bound is the norm of delta_q times the largest radius, which is not
       an upper bound. Add |delta_q_i| * radii_i over all joints
     norm-of-products: your code takes the norm of the products |delta_q_i| * radii_i.
-      Take their sum
+      Take their sum instead
     norm-of-products 2: your code multiplies the norm of delta_q by the norm of radii.
-      Add the products |delta_q_i| * radii_i
+      Add the products |delta_q_i| * radii_i instead
     largest-reach: your code uses the largest radius for every joint, so its steps are
       shorter than necessary. Use the radius of each joint
     reach-forgotten: your code omits the radii. Multiply each |delta_q_i| by radii_i,
@@ -180,7 +180,7 @@ def _(s, distance, delta_q, radii):
     limit-of-the-whole: your code compares the distance with the bound on the whole
       motion. Multiply the bound by 1 - s, because only this part of the motion remains
     step-capped 2: your code returns the smaller of 1 - s and the step. Return the
-      smaller of 1 and s + step
+      smaller of 1 and s + step instead
     max-for-min: your code uses max instead of min, so the result is never below 1.
       Return the smaller of 1 and s + step
     shares-summed: your code adds the steps that each joint alone would allow. Add the
@@ -189,7 +189,7 @@ def _(s, distance, delta_q, radii):
       step
     careful 2: your code uses only a part of the step that the bound allows. Use the
       whole step
-    time: your code returns the number of steps, 1 / step. Return s + step
+    time: your code returns the number of steps, 1 / step. Return s + step instead
     """
     speed = np.abs(delta_q) @ radii
     inside = distance <= 0

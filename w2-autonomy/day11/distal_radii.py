@@ -64,7 +64,7 @@ def _(link_lengths, link_radii):
     next-only: your code stops at the next link. Use the bound of the next joint instead
       of the radius of the next link
     from-the-base: your code measures from the base. Measure from joint i to its distal
-      links
+      links instead
     offset-one-late: for joint i, your code uses link_lengths[i + 1]. The distance from
       link i to the next link is link_lengths[i]
     offset-of-the-last: your code adds the length of the last link. Omit it, because no
@@ -105,7 +105,7 @@ def _(link_lengths, link_radii):
     less-the-base: your code uses the farthest point of the whole arm for every joint.
       Use only the links distal to the joint
     less-the-base 2: your code measures the farthest distal point from the base. Measure
-      it from the joint
+      it from the joint instead
     largest-far-behind: your code adds the largest distal link radius to the distance of
       the last link. Add each radius to the distance of its own link, and then take the
       maximum

@@ -123,7 +123,7 @@ def _(qd, grad, distance, gain):
     not-divided: your code does not divide the correction by grad . grad. Divide it,
       because grad need not have norm 1
     divided-by-the-length: your code divides the correction by the norm of grad. Divide
-      it by grad . grad
+      it by grad . grad instead
     pushed-in: your correction has the wrong sign, so the arm moves nearer to the
       obstacle. Change qd along +grad, because the distance increases in this direction
     all-joints-slowed: your code scales all joints by one factor. Change only the
@@ -172,9 +172,9 @@ def _(qd, grad, distance, gain):
     coming-near: your code changes every velocity towards the obstacle. Keep an approach
       that the bound allows
     by-the-sizes: your code compares absolute values, so it also changes a fast motion
-      away from the obstacle. Keep the signs
+      away from the obstacle. Keep the signs of grad . qd and of the bound
     half-of-it: your code adds only half of the correction. Add the whole correction
-    twice-of-it: your code adds twice the correction. Add it once
+    twice-of-it: your code adds twice the correction. Add the correction only once
     one-joint-only: your code changes only the first joint. Change qd along grad
       instead, because this change is the smallest
     one-joint-only 2: your code changes only the joint with the fastest approach. Change
@@ -185,17 +185,18 @@ def _(qd, grad, distance, gain):
     a-seventh-each: your code gives each joint a seventh of the correction. Make it
       proportional to grad
     divided-by-the-sum: your code divides the correction by the sum of grad. Divide it
-      by grad . grad
+      by grad . grad instead
     divided-by-the-largest: your code divides the correction by the square of the
-      largest entry of grad. Divide it by grad . grad
+      largest entry of grad. Divide it by grad . grad instead
     divided-by-qd: your code divides the correction by qd . qd. Divide it by grad . grad
+      instead
     those-that-come-near: your code changes only joints that approach the obstacle.
       Change qd along the whole grad instead, because this change is the smallest
     those-that-come-near 2: your code stops joints that approach the obstacle. Keep the
       part of the velocity that is allowed
     rate-added: your code adds grad . qd to the bound in the correction. Subtract grad .
       qd from the bound instead
-    lack-alone: your code returns the correction alone. Add it to qd
+    lack-alone: your code returns the correction alone. Add the correction to qd
     """
     bound = -gain * distance
     rate = grad @ qd
