@@ -167,13 +167,13 @@ def _(tree, sample, step, world):
     farthest: your tree grows from the node farthest from the sample. It should grow
       from the nearest node
     largest-difference: your code chooses the nearest node by the largest coordinate
-      difference. Use the Euclidean distance
+      difference. Use the Euclidean distance instead
     largest-difference 2: your code finds the nearest node, and its distance, by the
-      largest coordinate difference. Use the Euclidean distance
+      largest coordinate difference. Use the Euclidean distance instead
     sum-of-differences: your code chooses the nearest node by the sum of the absolute
-      differences. Use the Euclidean distance
+      differences. Use the Euclidean distance instead
     squared-for-plain: your code divides the step by the squared distance to the sample.
-      Divide it by the distance
+      Divide it by the distance instead
     root-to-the-sample: your code tests the edge from the root to the sample. Test the
       edge from the nearest node to the new point
     standing-is-blocked: if the sample equals a node, your code reports a blocked edge.
@@ -190,7 +190,7 @@ def _(tree, sample, step, world):
       them too
     twice-a-step: your edge has a length of two steps. Limit it to one step
     half-a-step: your edge has a length of half a step. Use the whole step
-    unit-step: your edge has length 1. Use the argument `step`
+    unit-step: your edge has length 1. Use the argument `step` instead
     added-twice: your code adds the result of `steer` to the node. Use the result
       itself, because `steer` returns a point and not a displacement
     nearest-of-the-free: your code selects the nearest node among those with a free

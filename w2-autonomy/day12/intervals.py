@@ -65,7 +65,7 @@ def _each(key: str, rows: list[tuple[str, str, Any]]) -> list[Option]:
 OPTIONS = [
     *_each("z", [
         ("ninety", "your z is 1.645. Use 1.96", 1.645),
-        ("two-sigma", "your z is 2. Use 1.96", 2.0),
+        ("two-sigma", "your z is 2. Use 1.96 instead", 2.0),
         ("one-sigma", "your z is 1. Use 1.96", 1.0),
         ("ninety-nine", "your z is 2.576. Use 1.96", 2.576),
         ("half-z", "your z is 0.98. Use 1.96", 0.98),
@@ -191,8 +191,8 @@ OPTIONS = [
          lambda ends, n: ends[[0, 0]]),
         ("high-alone", "both of your entries are the upper end. Return both ends",
          lambda ends, n: ends[[1, 1]]),
-        ("middle-and-width", "your code returns the centre and the half-width. "
-                             "Return the two ends", lambda ends, n:
+        ("middle-and-width", "your code returns the centre and the half-width. Return "
+                             "the two ends instead", lambda ends, n:
          np.array([ends.mean(), np.diff(ends)[0] / 2])),
     ]),
     *_each("none", [

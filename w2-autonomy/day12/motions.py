@@ -176,9 +176,10 @@ OPTIONS = [
                       "pass. Its argument should be the sd at that point",
            {"forward_sd": lambda x: 0.0 * x}, alone=True),
     Option("start-not-at-rest", "your motion starts with the largest sd^2 from which "
-                                "it can stop. Start with 0", {"start": "K"}),
+                                "it can stop. Start with sd^2 = 0 instead",
+           {"start": "K"}),
     Option("end-not-at-rest", "your backward pass starts with sd2_max at the end. "
-                              "Start with 0",
+                              "Start with sd^2 = 0 instead",
            {"last": False}),
     *(Option(slug, says, {"passes": one}) for slug, says, one in (
         ("no-braking", "your code has no backward pass. Add a backward pass that "
@@ -283,7 +284,7 @@ OPTIONS = [
         ("turning", "sd^2 stays above 0 with the largest sdd"))),
     Option("most-of-the-point-before", "your code limits sd^2 at i + 1 by the maximum "
                                        "at i in the forward pass. Use the maximum at "
-                                       "i + 1", {"kept": 0}),
+                                       "i + 1 instead", {"kept": 0}),
     *(Option(slug, f"your code uses the {word} torque limit for every joint. Each "
                    "joint has its own limit",
              {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
@@ -298,7 +299,7 @@ OPTIONS = [
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a[:1], b[:1], g[:1], limits[:1], sd)}),
     *(Option(slug, says, {"out": of}) for slug, says, of in (
-        ("root", "your code returns sd. Return sd^2", np.sqrt),
+        ("root", "your code returns sd. Return sd^2 instead", np.sqrt),
         ("squared", "your code returns sd^4. Return sd^2", np.square),
         ("end-to-start", "your motion runs from the end to the start. Reverse it",
          lambda x: x[::-1]),

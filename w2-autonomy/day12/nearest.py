@@ -107,23 +107,23 @@ def _others(tree, q, far):
 
 @row.wrongs(hidden={"itself-left-out": "the lab asks for no node's own place"})
 def _(tree, q):
-    """farthest: your code returns the farthest node. Return the nearest one
+    """farthest: your code returns the farthest node. Return the nearest node instead
     newest: your code always returns the last node of the tree. Return the node nearest
-      to q
+      to q instead
     one-coordinate: your code compares only the first coordinate. Use the distance in
       all coordinates
     one-coordinate 2: your code compares only the last coordinate. Use the distance in
       all coordinates
-    signed-sum: your code adds the differences with their signs, so they cancel. Add
-      their squares
+    signed-sum: your code adds the differences with their signs, so they cancel. Add the
+      squares of the differences instead
     signed-sum 2: your code adds the differences before it squares them, so they cancel.
       Square them first
     last-of-equals: if several nodes are equally near, your code returns the last one.
       Return the first one, as np.argmin does
     largest-coordinate: your code compares the nodes by their largest coordinate
-      difference. Use the Euclidean distance
+      difference. Use the Euclidean distance instead
     sum-of-sizes: your code compares the nodes by the sum of the absolute differences.
-      Use the Euclidean distance
+      Use the Euclidean distance instead
     wrapped: your code wraps the differences to [-pi, pi]. Omit this step, because the
       joints have limits, so q and q + 2 pi are different configurations
     wrapped 2: your code takes the differences modulo 2 pi. Omit this step, because the
@@ -134,15 +134,15 @@ def _(tree, q):
       for all
     from-the-origin: your code does not use q, so it returns the node nearest to the
       origin. Compute the distances from q
-    q-added: your code adds q to the nodes. Subtract q from the nodes
+    q-added: your code adds q to the nodes. Subtract q from the nodes instead
     most-alike: your code compares the dot products with q. Compare the distances
       instead, because a dot product also grows with the norm of the node
     place-of-the-distance: your code returns the position of the root in the order of
-      the distances. Return the index of the smallest distance
+      the distances. Return the index of the smallest distance instead
     counted-from-the-end: your index counts from the end of the tree. Count from the
       root
     smallest-coordinate: your code compares the nodes by their smallest coordinate
-      difference. Use the Euclidean distance
+      difference. Use the Euclidean distance instead
     two-coordinates: your code compares only the first two coordinates. Use the distance
       in all coordinates
     first-left-out: your code does not compare the first coordinate. Use the distance in
@@ -153,8 +153,9 @@ def _(tree, q):
       Compare the distances instead, because two points with the same norm can be far
       apart
     angle: your code selects the node at the smallest angle to q. Select the node at the
-      smallest distance
-    second-nearest: your code returns the second nearest node. Return the nearest one
+      smallest distance instead
+    second-nearest: your code returns the second nearest node. Return the nearest node
+      instead
     least-not-kept: your code compares each distance only with the distance of the root.
       Compare it with the smallest distance so far
     row-before: your code compares each distance only with the distance of the previous
@@ -178,7 +179,7 @@ def _(tree, q):
     itself-left-out: your code skips a node that equals q. Include such a node, because
       its distance is 0
     largest-with-sign: your code compares the nodes by their largest signed difference.
-      Use the Euclidean distance
+      Use the Euclidean distance instead
     """
     away = tree - q
     far = np.sum(away**2, axis=1)

@@ -173,10 +173,12 @@ def _(a, b, c, limits, sd):
       that joint. Sort the two quotients
     speed-forgotten: your code omits the term b sd^2. Subtract it from both torque
       limits
-    speed-sign: your code adds b sd^2 to the limits. Subtract b sd^2
+    speed-sign: your code adds b sd^2 to the limits. Subtract b sd^2 from the limits
+      instead
     gravity-forgotten: your code omits the term c. Subtract it from both torque limits
-    gravity-sign: your code adds c to the limits. Subtract c
-    rest-added: your code adds b sd^2 + c to the limits. Subtract b sd^2 + c
+    gravity-sign: your code adds c to the limits. Subtract c from the limits instead
+    rest-added: your code adds b sd^2 + c to the limits. Subtract b sd^2 + c from the
+      limits instead
     rest-not-divided: your code divides the torque limits by `a`, but not b sd^2 + c.
       Divide both by `a`
     one-sided: your term b sd^2 + c has the wrong sign in the lower bound. Subtract this
@@ -184,6 +186,7 @@ def _(a, b, c, limits, sd):
     size-of-rest: your code reduces both limits by |b sd^2 + c|. This torque should
       reduce one limit and extend the other
     widest: your code takes the union of the joints' intervals. Take the intersection
+      instead
     least-of-both: both of your bounds are the minimum of their quotients. The lower
       bound should be the maximum of the joints' lower bounds
     first-joint-only: your code uses only the first joint. Use all joints, because every
@@ -194,7 +197,7 @@ def _(a, b, c, limits, sd):
       earlier bounds?
     half-the-limit: your code uses only half of each torque limit. Use the whole limit
     not-divided: your bounds are torques. Divide the torques by `a`
-    times-a: your code multiplies the torques by `a`. Divide the torques by `a`
+    times-a: your code multiplies the torques by `a`. Divide the torques by `a` instead
     one-limit: your code allows torques from 0 to the limit. Allow torques from -limit
       to limit
     greatest-first: your upper bound comes first. Return the lower bound first
@@ -207,7 +210,7 @@ def _(a, b, c, limits, sd):
     none-is-zero: if no sdd is allowed, your code returns (0, 0), which allows sdd = 0.
       Leave the lower bound above the upper bound
     none-is-zero 2: if a joint with a = 0 exceeds its limit, your code returns (0, 0),
-      which allows sdd = 0. Return (inf, -inf)
+      which allows sdd = 0. Return (inf, -inf) instead
     none-is-one: if no sdd is allowed, your code reduces the lower bound to the upper
       bound. Leave the lower bound above the upper bound
     zero-stops-all: your code returns an empty range for a joint with a = 0 within its

@@ -89,7 +89,7 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     coriolis-in-a: your code adds the Coriolis torque to `a`. Add it to b, because it is
       multiplied by sd^2
     rows-summed: your code sums each row of M and multiplies the sum by one joint's
-      rate. Use the matrix product
+      rate. Use the matrix product instead
     trace: your code multiplies by the trace of M. Use the matrix product with M instead
     first-row: your code multiplies the first row of M entry by entry. Use the matrix
       product with M instead

@@ -256,9 +256,9 @@ def _(a, b, discs):
     all-must-hit 2: your code reports the edge as free only if the edge misses at least
       one disc. The edge must miss every disc, so it is free if there is no disc
     squared-for-plain: your code compares the squared distance with the radius. Compare
-      it with the squared radius
+      it with the squared radius instead
     plain-for-squared: your code compares the distance with the squared radius. Compare
-      it with the radius
+      it with the radius instead
     diameter: your code compares the distance with twice the radius. Compare it with the
       radius itself, which is the third number of a disc
     half-the-radius: your code compares the distance with half of the radius. Compare it
@@ -268,7 +268,7 @@ def _(a, b, discs):
     not-divided: your code does not divide the parameter of the nearest point by the
       squared length of the edge. Divide it, so that the parameter is 1 at `b`
     divided-by-the-length: your code divides the parameter of the nearest point by the
-      length of the edge. Divide it by the squared length
+      length of the edge. Divide it by the squared length instead
     touching-is-free: your code reports an edge that touches a disc as free. It should
       be blocked
     from-the-origin: your code projects the centre itself onto the edge. First subtract
@@ -276,10 +276,10 @@ def _(a, b, discs):
     other-way: your code measures the parameter from one end of the edge, but it applies
       the parameter from the other end. Use the same end for both
     box: your code treats the discs as squares, because it compares each coordinate
-      separately. Use the Euclidean distance
+      separately. Use the Euclidean distance instead
     foot-without-a: your nearest point omits the start `a`. Add `a`
     cut-to-one: your code clamps a length along the edge to [0, 1]. Clamp it to the
-      length of the edge
+      length of the edge instead
     length-for-share: your code multiplies a length along the edge by b - a. Multiply it
       by the unit vector, or divide it by the length of the edge
     distance-to-the-start: your code uses the distance to `a` beyond the end `b`. Use

@@ -139,7 +139,8 @@ def _(path, world, pairs):
       original path, but uses them in the current path. Use the current length
     not-sorted: your code skips a pair if its first row is the larger one. Sort the two
       rows
-    rounded: your code rounds u m to the nearest integer. Use int(), which rounds down
+    rounded: your code rounds u m to the nearest integer. Use int() instead, which
+      rounds down
     rounded 2: your code rounds u (m - 1). Use int(u m), which gives every row the same
       probability
     of-m-minus-one: your code multiplies u by m - 1. Use int(u m), which gives every row

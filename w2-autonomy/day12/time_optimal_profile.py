@@ -114,9 +114,10 @@ def _(a, b, c, limits, sd2_max):
       Add a backward pass that begins with sd^2 = 0 at the last point
     no-braking 2: your code has no backward pass, so the motion stops abruptly at the
       end. Add a backward pass that begins with sd^2 = 0 at the last point
-    end-not-at-rest: your backward pass starts with sd2_max at the end. Start with 0
+    end-not-at-rest: your backward pass starts with sd2_max at the end. Start with sd^2
+      = 0 instead
     start-not-at-rest: your motion starts with the largest sd^2 from which it can stop.
-      Start with 0
+      Start with sd^2 = 0 instead
     backward-pass-only: your code has no forward pass, so the motion does not start at
       rest. Add a forward pass that begins with sd^2 = 0 at the first point
     backward-pass-only 2: your code has no forward pass, so sd^2 jumps from 0 to its
@@ -133,7 +134,7 @@ def _(a, b, c, limits, sd2_max):
     sd-for-sd2 3: your code calls `path_accel_bounds` with sd^2 in the forward pass. Its
       argument should be sd
     most-of-the-point-before: your code limits sd^2 at i + 1 by the maximum at i in the
-      forward pass. Use the maximum at i + 1
+      forward pass. Use the maximum at i + 1 instead
     no-speed-limit: your code does not use sd2_max. Limit sd^2 to sd2_max in both
       passes, because the speed of the motors is limited
     speed-limit-forwards-only: your code clamps sd^2 to sd2_max only after the two
@@ -150,12 +151,12 @@ def _(a, b, c, limits, sd2_max):
       of the step. Compute the bounds at the first point of the step
     bobrow: your code computes the bounds on sdd at the end of each step in the backward
       pass. Compute the bounds at the first point of the step
-    root: your code returns sd. Return sd^2
-    times: your code returns the time of each point. Return sd^2
+    root: your code returns sd. Return sd^2 instead
+    times: your code returns the time of each point. Return sd^2 instead
     half-the-torque: your code uses only half of each torque limit. Use the whole limit
     never-moves: your sd^2 is 0 at every point. Check the result of the backward pass,
       and whether the forward pass uses the largest sdd
-    accelerations: your code returns the sdd of each step. Return sd^2
+    accelerations: your code returns the sdd of each step. Return sd^2 instead
     """
     given = (a, b, c, limits, sd2_max)
     right = time_optimal_profile(*given)

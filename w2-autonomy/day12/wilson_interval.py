@@ -79,12 +79,12 @@ def _(successes, n):
       half-width too
     root-n-forgotten: your code does not divide p (1 - p) by n. Divide it, because more
       trials should make the interval narrower
-    ninety: your z is 1.645, which gives a 90 % interval. Use 1.96
+    ninety: your z is 1.645, which gives a 90 % interval. Use 1.96 instead
     ninety-without-z2: your z is 1.645 instead of 1.96, and your code omits the term z^2
       / (4 n^2) under the root. Use 1.96, and add this term => both
-    two-sigma: your z is 2. Use 1.96
-    one-sigma: your z is 1, which gives a 68 % interval. Use 1.96
-    ninety-nine: your z is 2.576, which gives a 99 % interval. Use 1.96
+    two-sigma: your z is 2. Use 1.96 instead
+    one-sigma: your z is 1, which gives a 68 % interval. Use 1.96 instead
+    ninety-nine: your z is 2.576, which gives a 99 % interval. Use 1.96 instead
     more-digits: your z is 1.959964, which is more exact than 1.96. Use 1.96, as in the
       task, so that all results agree
     z-for-z2: your code uses z instead of z^2 in the centre and in the denominator. Use
@@ -95,11 +95,11 @@ def _(successes, n):
     successes-for-p: your centre contains k instead of the proportion k / n. Divide k by
       n
     failures: your code returns the interval for the failures, n - k. Return the
-      interval for the successes
+      interval for the successes instead
     high-first: your upper end comes first. Return the lower end first
     high-first 2: for n > 0, your upper end comes first. Return the lower end first
     middle-and-width: your code returns the centre and the half-width. Return the two
-      ends
+      ends instead
     rule-of-three: your upper end for k = 0 is 3 / n, as in the rule of three. Use the
       Wilson interval for k = 0 too
     rule-of-three 2: your interval for k = 0 and for k = n is the rule of three, with
@@ -107,13 +107,13 @@ def _(successes, n):
     rule-of-three 3: your interval for k = 0 and for k = n is the rule of three, with
       the ends 3 / n and 1 - 3 / n. Use the Wilson interval for these cases too
     plus-four: your code uses the Wald interval with p = (k + 2) / (n + 4) (Agresti and
-      Coull). Use the Wilson interval
+      Coull). Use the Wilson interval instead
     plus-four 2: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
-      n + z^2 trials (Agresti and Coull). Use the Wilson interval
+      n + z^2 trials (Agresti and Coull). Use the Wilson interval instead
     plus-four 3: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
-      n + z^2 trials (Agresti and Coull). Use the Wilson interval
+      n + z^2 trials (Agresti and Coull). Use the Wilson interval instead
     one-more: your p is (k + 1) / (n + 2), with one success and one failure added. Use k
-      / n
+      / n instead
     quadratic-sign: your quadratic equation for p has the coefficient -2 k / n + z^2 /
       n. It should be -(2 k / n + z^2 / n)
     quadratic-z2: your quadratic equation for p has the coefficient -(2 k / n + z^2). It
