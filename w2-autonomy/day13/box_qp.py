@@ -237,7 +237,7 @@ def _(H, f, lo, hi, x):
       bounds. If one entry is held at a bound, the optimal values of the other entries
       change, so solve for them again
     no-limits: your result is the unconstrained minimiser -H^-1 f. Return the minimiser
-      within the bounds
+      within the bounds instead
     scaled-back: your code stops at the first bound on the way to the unconstrained
       minimiser. Hold the entry at this bound, and continue with the other entries
     solved-once-more: your code clamps the unconstrained minimiser and then solves for
@@ -254,7 +254,7 @@ def _(H, f, lo, hi, x):
     all-let-go: your code releases all held entries at once, so they reach the same
       bounds again. Release only the entry that would move most
     stops-too-early: your loop ends although a held entry would still move by up to
-      1e-4. Use a smaller tolerance
+      1e-4. Use a smaller tolerance instead
     few-rounds: your code stops after ten iterations, which is not enough for some
       problems. Repeat until no held entry has to be released
     upper-limits-passed: your step can violate the upper bounds. Stop the step at the
@@ -299,7 +299,7 @@ def _(H, f, lo, hi, x):
     lower-only: your code uses only the lower bounds. Use the upper bounds too
     upper-only: your code uses only the upper bounds. Use the lower bounds too
     start-returned: your function returns the start point, clamped to the bounds. Return
-      the minimiser within the bounds
+      the minimiser within the bounds instead
     """
     given = (H, f, lo, hi, x)
     free = np.linalg.solve(H, -f)

@@ -81,7 +81,7 @@ def _(J_space, masses, coms, g):
       gravity torque itself. Use g x omega, because the stiffness is the derivative of
       this torque
     g-times-omega: your code multiplies g and omega entry by entry. Use the cross
-      product g x omega
+      product g x omega instead
     link-i-only: your row i contains only the weight of link i. Joint i also carries all
       links distal to it
     only-links-after: your row i omits the weight of link i. Include it, because joint i

@@ -90,7 +90,7 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     mu-not-in-V 2: your code omits mu in Vx, Vxx and `drop`. Use the same Quu as in the
       gains
     mu-not-in-the-drop: your code omits mu in `drop`. Use the same Quu as in the gains
-    mu-on-Vxx: your code adds mu to Vxx. Add mu to the diagonal of Quu
+    mu-on-Vxx: your code adds mu to Vxx. Add mu to the diagonal of Quu instead
     mu-on-Vxx 2: your code adds mu to Vxx inside Quu. Add mu to the diagonal of Quu
       itself
     Vx-not-passed-on: your code uses Vx of the final cost in every step. Update Vx in
@@ -150,7 +150,7 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     K-reversed 2: your k is in reverse order. The first step should come first
     K-reversed 3: your K is in reverse order. The first step should come first
     end-forgotten: your pass begins with Vx = 0 and Vxx = 0. Begin with the derivatives
-      of the final cost
+      of the final cost instead
     """
     given = (fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu)
     k, K, drop = ilqr_backward(*given)

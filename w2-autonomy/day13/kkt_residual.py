@@ -73,6 +73,7 @@ def _(H, f, lo, hi, x):
     half-a-push: your code moves x by minus half the gradient. Move x by minus the
       gradient
     unit-box: your code replaces the bounds by -1 and 1. Use the arguments lo and hi
+      instead
     which-one: your result is the index of the largest difference. Return the absolute
       difference itself
     clipped-for-the-difference: your code compares the new point with the clamped x.

@@ -73,7 +73,7 @@ def _(M, stiffness, damping, h):
     velocity-kept 2: the lower right block of your A is the identity matrix. It should
       be (M + h D)^-1 M, because the damping reduces the velocity
     inverse-by-entry: your code inverts each entry of M + h D separately. Use the matrix
-      inverse
+      inverse instead
     position-kept: the upper left block of your A is the identity matrix. Subtract h^2
       (M + h D)^-1 times the stiffness, because gravity changes the new velocity, which
       moves the joints
@@ -95,9 +95,9 @@ def _(M, stiffness, damping, h):
     B-swapped: your code swaps the upper and the lower half of B. The rows of the
       positions should come first
     exponential: your A and B are the exact discretisation by the matrix exponential.
-      Return the matrices of MuJoCo's semi-implicit step
+      Return the matrices of MuJoCo's semi-implicit step instead
     exponential 2: your A and B are the first terms of the matrix exponential. Return
-      the matrices of MuJoCo's semi-implicit step
+      the matrices of MuJoCo's semi-implicit step instead
     slope-implicit: your gravity stiffness acts on the new position. In MuJoCo it acts
       on the old position, so invert only M + h D
     damping-not-divided: your code does not divide the damping by the mass, and the

@@ -83,7 +83,7 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
       both dq_lo and dq_hi
     limits-swapped: your code swaps the lower and the upper bounds. The lower bounds
       come first
-    limits-1: your code replaces the bounds by -1 and 1. Use dq_lo and dq_hi
+    limits-1: your code replaces the bounds by -1 and 1. Use dq_lo and dq_hi instead
     clipped-twice: your code clamps Day 3's damped step and then a second step for the
       remaining error. The second step should leave out the joints that are held at a
       bound

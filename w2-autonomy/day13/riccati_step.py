@@ -81,9 +81,7 @@ def _(P, A, B, Q, R):
     }
 
 
-@row.wrong(
-    "answers-swapped", "your code swaps the two results. The new P should come first"
-)
+@row.wrong("answers-swapped", "your code swaps P and K. The new P should come first")
 def _(P, A, B, Q, R):
     return riccati_step(P, A, B, Q, R)[::-1]
 
