@@ -85,6 +85,7 @@ def _(mean, std, noise, scores, elite):
     weighted 3: your code weights the mean by the scores. All elite samples should have
       the same weight
     median: your code replaces the mean by the median. Return the mean of the elite
+      instead
     halves-swapped: your code swaps the mean and the standard deviation. The mean should
       come first
     """

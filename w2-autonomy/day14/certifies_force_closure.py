@@ -108,7 +108,7 @@ def _(W, weights):
       0). Use 1e-9 times the sum of |W_ij w_j| for each row, so that the answer does not
       depend on the units
     balance-roughly: your tolerance for W w is 1e-4 times the sum of |W_ij w_j|. Use
-      1e-9 times this sum
+      1e-9 times this sum instead
     balance-of-all: your code uses one tolerance for all rows of W w, computed from
       their norm or their sum. Compare each row with 1e-9 times its own sum of |W_ij
       w_j|

@@ -83,16 +83,16 @@ def _(finger_position, force, normal, mu, fraction, step):
     at-the-line: your pads also close if a margin is equal to `fraction` times mu f_n.
       Close them only if a margin is smaller
     one-minus-the-share: your code compares the margin with (1 - fraction) mu f_n.
-      Compare it with `fraction` times mu f_n
+      Compare it with `fraction` times mu f_n instead
     high-for-low: your limit for the finger position is HIGH[4], so the pads open. Use
-      LOW[4]
+      LOW[4] instead
     smaller-for-larger: your code returns the smaller of the new position and LOW[4].
-      Return the larger of the two
+      Return the larger of the two instead
     always: your pads close at every call. Close them only if a contact nearly slips
     share-in-newtons: your code compares the margin with `fraction` itself. The margin
       is in newtons, so multiply `fraction` by mu f_n
     share-of-the-force: your code compares the margin with a fraction of the norm of the
-      force. Compare it with `fraction` times mu f_n
+      force. Compare it with `fraction` times mu f_n instead
     share-of-the-force 2: your code compares the margin with `fraction` times mu times
       the norm of the force. Use f_n, the component along the normal, instead of the
       norm

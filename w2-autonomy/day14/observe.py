@@ -65,7 +65,7 @@ def _(T_seen, noise):
     noise-after-the-fold: your code adds the noise after the reduction, so the yaw can
       leave [-pi/4, pi/4). Add the noise first
     fmod: your code uses np.fmod, whose result is negative for a negative argument. Use
-      % or np.mod
+      % or np.mod instead
     transposed: your yaw has the wrong sign, as with the transposed rotation matrix. Use
       np.arctan2(R[1, 0], R[0, 0])
     arccosine: your yaw is arccos(R[0, 0]), which is never negative. Use np.arctan2(R[1,

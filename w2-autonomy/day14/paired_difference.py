@@ -29,10 +29,11 @@ def _(first, second):
     n-minus-one 2: your code divides by sqrt(n - 1) in the standard error. Divide by
       sqrt(n) instead
     root-of-the-mean-square: your code takes the standard deviation about 0. Take the
-      standard deviation about the mean difference
+      standard deviation about the mean difference instead
     interval: your second result is 1.96 standard errors. Return one standard error
+      instead
     which-differ: your first result is the fraction of the cubes on which the two
-      policies differ. Return the mean difference
+      policies differ. Return the mean difference instead
     sorted: your code sorts both lists, so the pairs are lost. Keep the order of the
       lists
     """

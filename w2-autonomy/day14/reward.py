@@ -59,8 +59,9 @@ def _(heights, target, cap):
     thrown-is-minus-cap: your reward for a height above the cap is minus the height. It
       should be -1
     cap-for-target: your code divides the height by the cap. Divide it by the target
+      instead
     cap-for-target 2: your code divides a height below the target by the cap. Divide it
-      by the target
+      by the target instead
     halved: your reward is -1 for a cube on the floor and 1 for a cube at the target. It
       should rise from 0 to 1
     one-minus: your result is 1 minus the reward. Return the reward itself
