@@ -35,11 +35,11 @@ def _(x):
       Each column has its own unit and its own scale, so use axis=0
     spread-for-all: your code uses one standard deviation for all columns. Each column
       has its own unit and its own scale, so use axis=0
-    variance: your second row is the variance. Take its square root
+    variance: your second row is the variance. Take the square root of the variance
     deviation: your second row is the mean absolute deviation. Take the root of the mean
-      squared deviation
+      squared deviation instead
     min-max: your code returns the minimum and the range of each column. Return the mean
-      and the standard deviation
+      and the standard deviation instead
     constant-0: your code returns a standard deviation of 0 for a constant column, so
       `normalise` would divide by 0. Return 1 for such a column
     about-0 2: your second row is the root mean square. Subtract the mean first, so that

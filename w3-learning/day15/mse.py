@@ -31,6 +31,7 @@ def _(pred, target):
     summed-over-columns 2: your loss is a sum over the columns and a mean over the rows.
       Take the mean over all n m entries instead
     absolute: your loss is the mean absolute error. Return the mean squared error
+      instead
     not-divided: your gradient is 2 (pred - target). The loss is a mean over n m
       entries, so divide the gradient by n m
     divided-by-rows: your code divides the gradient only by the number of rows. The loss

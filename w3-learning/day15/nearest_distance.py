@@ -23,15 +23,15 @@ def _(known, asked):
     column-by-column: your code chooses the nearest value in each column separately.
       Choose one nearest row for all columns
     mean-distance: your result is the mean of the distances to all known rows. Return
-      the smallest distance
+      the smallest distance instead
     to-the-mean: your result is the distance to the mean of the known rows. Return the
-      distance to the nearest known row
+      distance to the nearest known row instead
     index: your code returns the index of the nearest row. Return the distance to this
-      row
+      row instead
     one-for-all: your code returns the smallest of all distances for every asked row.
       Each asked row has its own nearest row
     city-block: your distance is the sum of the absolute differences. Return the
-      Euclidean distance
+      Euclidean distance instead
     """
     apart = known[:, None] - asked
     d = np.linalg.norm(apart, axis=2)

@@ -68,7 +68,7 @@ def _(action, episode):
       entries. An episode with n rows has only n - 1 pairs, so take the mean over the
       pairs
     across-columns: your code takes the differences between columns. Take the
-      differences between rows, along axis 0
+      differences between rows, along axis 0 instead
     by-number: your code joins all rows with the same episode number, although this
       number can occur again in a later episode. Use only pairs of adjacent rows
     """

@@ -47,7 +47,7 @@ def _(episode, held_out):
     as-a-range: your code holds out all episodes from the smallest to the largest number
       in held_out. Hold out only the episodes whose numbers are in held_out
     positions: your code counts the episodes from 0 in ascending order and compares
-      these counts with held_out. Compare the numbers in `episode` with held_out
+      these counts with held_out. Compare the numbers in `episode` with held_out instead
     """
     rows = np.arange(len(episode))
     return {
