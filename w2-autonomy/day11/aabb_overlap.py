@@ -162,8 +162,8 @@ def _(box_a, box_b):
       the intervals on each axis, because this centre can lie outside
     middles-inside 2: your code requires that the centre of one box lies in the other
       box. Compare the intervals on each axis, because both centres can lie outside
-    half-of-one: your limit for the distance between the centres uses only the half
-      extents of box_a. Add the half extents of box_b
+    half-of-one: your code uses only the half extents of box_a in the limit for the
+      distance between the centres. Add the half extents of box_b
     corners-only: your code tests whether a corner of one box lies in the other box.
       Compare the intervals on each axis, because two boxes can cross without such a
       corner => both

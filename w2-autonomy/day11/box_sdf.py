@@ -75,16 +75,16 @@ def _(p, half_extents):
       face. Near an edge or a corner, take the norm of all positive excesses
     sum-outside: outside the box, your code adds the excesses beyond the faces. Take
       their norm, because they are perpendicular
-    inside-added-outside: outside the box, the norm in your code includes negative
-      entries of |p| - half_extents. Clamp them to 0 first
+    inside-added-outside: outside the box, your code includes negative entries of |p| -
+      half_extents in the norm. Clamp them to 0 first
     depth-added-outside: outside the box, your code adds the largest entry of |p| -
       half_extents to the norm. Add this entry only inside the box, where it is negative
     inside-by-the-norm: inside the box, your code returns minus the norm of all three
       face distances. Return minus the smallest of these distances instead
     farthest-face-inside: inside the box, your code uses the distance to the farthest
       face. Use the nearest face, which has the largest entry of |p| - half_extents
-    farthest-face-inside 2: your term min(..., 0) uses the smallest entry of |p| -
-      half_extents, which belongs to the farthest face. Use the largest entry, which
+    farthest-face-inside 2: your code uses the smallest entry of |p| - half_extents in
+      min(..., 0), which belongs to the farthest face. Use the largest entry, which
       belongs to the nearest face
     to-the-middle-inside: inside the box, your code returns minus the distance to the
       centre. Use the distance to the nearest face instead
@@ -100,8 +100,8 @@ def _(p, half_extents):
       contains half of each side
     twice-the-sides: your code doubles half_extents. Use half_extents itself, because
       the faces are at plus and minus half_extents
-    abs-forgotten: your code omits the absolute value of p, so points with a negative
-      coordinate are wrong. Use |p| - half_extents
+    abs-forgotten: your code omits the absolute value of p, so the result is wrong for
+      points with a negative coordinate. Use |p| - half_extents
     abs-forgotten-zero-inside: your code omits the absolute value of p, and it returns 0
       inside the box. Use |p| - half_extents, and return minus the distance to the
       nearest face inside the box => both
@@ -116,8 +116,8 @@ def _(p, half_extents):
     in-the-plane: your code does not use z. Use all three coordinates
     smallest-added: your code adds the smallest entry of |p| - half_extents, even where
       it is positive. Add the largest entry, and only where it is negative
-    first-axis-added: your term min(..., 0) uses only the x entry of |p| - half_extents.
-      Use the largest of the three entries
+    first-axis-added: your code uses only the x entry of |p| - half_extents in min(...,
+      0). Use the largest of the three entries
     largest-with-max: your code uses max(..., 0) for the largest entry of |p| -
       half_extents. Use min(..., 0), which is 0 outside the box and negative inside
     sum-inside: inside the box, your code adds the three face distances. Return minus

@@ -107,7 +107,8 @@ def _(a0, a1, b0, b1):
       parallel segments
     across-of-lengths: your denominator is a c, which is correct only for perpendicular
       segments. It should be a c - b b
-    swapped-to-s: your code swaps s and t. The parameter s belongs to the first segment
+    swapped-to-s: your code swaps s and t. The parameter s belongs to the first segment,
+      and t to the second
     points-swapped: your point of the second segment comes first. Return the point of
       the first segment first
     middles: your code returns the midpoints of the segments. Compute s and t instead,

@@ -184,7 +184,7 @@ def _(s, distance, delta_q, radii):
     max-for-min: your code uses max instead of min, so the result is never below 1.
       Return the smaller of 1 and s + step
     shares-summed: your code adds the steps that each joint alone would allow. Add the
-      motions first, then divide
+      products |delta_q_i| * radii_i first, and then divide the distance by this sum
     careful: your code uses only a part of the step that the bound allows. Use the whole
       step
     careful 2: your code uses only a part of the step that the bound allows. Use the
@@ -266,8 +266,8 @@ def _(s, distance, delta_q, radii):
 
 @row.wrong
 def far_is_free(s, distance, delta_q, radii):
-    """if the distance is more than half a metre, your code returns 1. A long motion can
-    use up any distance, so use the bound"""
+    """if the distance is more than half a metre, your code returns 1. Use the bound,
+    because a long motion can exceed any distance"""
     if distance <= 0:
         return s
     speed = np.abs(delta_q) @ radii

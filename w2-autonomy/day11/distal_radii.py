@@ -87,8 +87,8 @@ def _(link_lengths, link_radii):
     not-in-a-row: your code adds the link length to the joint's own link radius. Add the
       link length to the bound of the next joint, and take the maximum of this sum and
       the radius
-    euclid: your code combines the lengths as the root of a sum of squares. In the
-      stretched arm the lengths add up
+    euclid: your code combines the lengths as the root of a sum of squares. Use their
+      sum, because the lengths add up in the stretched arm
     one-for-all: your code returns the largest result for every joint. Each joint should
       have its own bound
     backwards: your result is in reverse order. Its first entry should belong to joint 1

@@ -102,10 +102,10 @@ def _(J_space, p, o, link):
     rotation-only: your code omits v. Use v + omega x p, which is the velocity of p
     cross-the-other-way: your cross product has the wrong order. Use v + omega x p,
       which is the velocity of p
-    normal-not-unit: your code does not normalise the normal, so the result is
-      multiplied by the distance. Divide the normal by the distance
-    normal-squared: your code divides the normal by the squared distance. Divide it by
-      the distance instead
+    normal-not-unit: your code does not normalise p - o. Divide p - o by its norm,
+      because otherwise the result contains the distance as a factor
+    normal-squared: your code divides p - o by the squared distance. Divide it by the
+      distance instead
     half: your result contains a factor of 1/2. Omit this factor
     normal-of-p: your normal points from the world origin to p. It should point from o
       to p

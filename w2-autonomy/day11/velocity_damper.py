@@ -118,8 +118,8 @@ MORE = (
     hidden={"coming-near": "hardly a speed in a run comes near and is slow enough"}
 )
 def _(qd, grad, distance, gain):
-    """always: your code changes velocities that are already allowed. Return such a qd
-      unchanged
+    """always: your code changes velocities that are already allowed. Return qd
+      unchanged if it is allowed
     not-divided: your code does not divide the correction by grad . grad. Divide it,
       because grad need not have norm 1
     divided-by-the-length: your code divides the correction by the norm of grad. Divide
@@ -157,14 +157,14 @@ def _(qd, grad, distance, gain):
     largest-joint-only: your code changes only the joint with the largest entry of grad.
       Change qd along grad instead, because this change is the smallest
     slope-unit: your code normalises grad in grad . qd, but not in the bound. Use grad
-      itself
+      itself in both
     only-inside: your code limits the velocity only if the distance is negative. Limit
       it at every distance
     standing-still: if grad is 0, your code divides by 0. Return qd
     part-alone: your code returns only the component along grad. Keep the other
       components of qd
-    left-where-it-overlaps: if the distance is not positive, your code returns qd. The
-      correction should move the arm away
+    left-where-it-overlaps: if the distance is not positive, your code returns qd. Apply
+      the correction, which moves the arm away from the obstacle
     stopped-where-it-overlaps: if the distance is not positive, your code returns 0.
       Keep the part of the velocity that leads away
     no-way-out: your code clamps a negative distance to 0, so an arm that overlaps the
@@ -179,11 +179,12 @@ def _(qd, grad, distance, gain):
       instead, because this change is the smallest
     one-joint-only 2: your code changes only the joint with the fastest approach. Change
       qd along grad instead, because this change is the smallest
-    alike: your code gives every joint the same correction. Make it proportional to grad
-    by-signs: your code gives every joint a correction of the same size. Make it
+    alike: your code gives every joint the same correction. Make the correction
       proportional to grad
-    a-seventh-each: your code gives each joint a seventh of the correction. Make it
-      proportional to grad
+    by-signs: your code gives every joint a correction of the same size. Make the
+      correction proportional to grad
+    a-seventh-each: your code gives each joint a seventh of the correction. Make the
+      correction proportional to grad
     divided-by-the-sum: your code divides the correction by the sum of grad. Divide it
       by grad . grad instead
     divided-by-the-largest: your code divides the correction by the square of the

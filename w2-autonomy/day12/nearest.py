@@ -117,7 +117,7 @@ def _(tree, q):
     signed-sum: your code adds the differences with their signs, so they cancel. Add the
       squares of the differences instead
     signed-sum 2: your code adds the differences before it squares them, so they cancel.
-      Square them first
+      Square the differences first
     last-of-equals: if several nodes are equally near, your code returns the last one.
       Return the first one, as np.argmin does
     largest-coordinate: your code compares the nodes by their largest coordinate
@@ -148,7 +148,7 @@ def _(tree, q):
     first-left-out: your code does not compare the first coordinate. Use the distance in
       all coordinates
     cubed: your code cubes the differences, so they keep their signs and cancel. Square
-      them
+      the differences instead
     length-for-place: your code compares the norms of the nodes with the norm of q.
       Compare the distances instead, because two points with the same norm can be far
       apart

@@ -183,8 +183,8 @@ def _(a, b, c, limits, sd):
       Divide both by `a`
     one-sided: your term b sd^2 + c has the wrong sign in the lower bound. Subtract this
       term from both torque limits
-    size-of-rest: your code reduces both limits by |b sd^2 + c|. This torque should
-      reduce one limit and extend the other
+    size-of-rest: your code reduces both limits by |b sd^2 + c|. Subtract b sd^2 + c
+      with its sign from both limits instead
     widest: your code takes the union of the joints' intervals. Take the intersection
       instead
     least-of-both: both of your bounds are the minimum of their quotients. The lower
@@ -214,7 +214,7 @@ def _(a, b, c, limits, sd):
     none-is-one: if no sdd is allowed, your code reduces the lower bound to the upper
       bound. Leave the lower bound above the upper bound
     zero-stops-all: your code returns an empty range for a joint with a = 0 within its
-      torque limit. Such a joint does not limit sdd
+      torque limit. Skip such a joint, because it does not limit sdd
     zero-row-ignored: your code ignores a joint with a = 0 that exceeds its torque
       limit. In this case no sdd is allowed, so return (inf, -inf)
     gravity-not-divided: your code subtracts c after the division by `a`. The term c is
@@ -255,9 +255,9 @@ def _(a, b, c, limits, sd):
     no-mover-is-none: if every `a` is 0 and every torque is within its limit, your code
       returns (inf, -inf). Any sdd is allowed, so return (-inf, inf)
     held-by-gravity-alone: for a joint with a = 0, your code compares only c with the
-      limit. Compare b sd^2 + c
+      limit. Compare b sd^2 + c with the limit instead
     held-by-speed-alone: for a joint with a = 0, your code compares only b sd^2 with the
-      limit. Compare b sd^2 + c
+      limit. Compare b sd^2 + c with the limit instead
     held-with-sign: for a joint with a = 0, your code compares the torque without its
       absolute value. Take the absolute value, because the limit also applies to
       negative torques

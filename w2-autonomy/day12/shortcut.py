@@ -136,7 +136,8 @@ def _(path, world, pairs):
     indices-of-the-first-path: your pairs refer to rows of the original path. They
       should refer to the current path
     indices-of-the-first-path 2: your code computes the indices with the length of the
-      original path, but uses them in the current path. Use the current length
+      original path, but it uses them in the current path. Use the length of the current
+      path instead
     not-sorted: your code skips a pair if its first row is the larger one. Sort the two
       rows
     rounded: your code rounds u m to the nearest integer. Use int() instead, which

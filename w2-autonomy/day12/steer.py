@@ -116,7 +116,7 @@ def _(q, target, step):
     two-coordinates: your code uses only the first two coordinates for the distance. Use
       all coordinates
     root-of-the-mean: your code takes the root of the mean of the squares. Take the root
-      of the sum of the squares
+      of the sum of the squares instead
     length-of-the-target: your code divides the displacement by the norm of the target.
       Divide it by the norm of target - q instead
     direction-from-the-origin: your code uses the direction from the origin to the

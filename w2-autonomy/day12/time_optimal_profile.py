@@ -147,8 +147,8 @@ def _(a, b, c, limits, sd2_max):
       enough. Halve the interval more often
     few-bisections 2: your bisection stops too early, so its result is not accurate
       enough. Halve the interval more often
-    limits-of-the-next-point: your code computes the bounds on sdd for a step at the end
-      of the step. Compute the bounds at the first point of the step
+    limits-of-the-next-point: your code computes the bounds on sdd at the end of each
+      step. Compute the bounds at the first point of the step
     bobrow: your code computes the bounds on sdd at the end of each step in the backward
       pass. Compute the bounds at the first point of the step
     root: your code returns sd. Return sd^2 instead

@@ -102,10 +102,10 @@ def _(successes, n):
       ends instead
     rule-of-three: your upper end for k = 0 is 3 / n, as in the rule of three. Use the
       Wilson interval for k = 0 too
-    rule-of-three 2: your interval for k = 0 and for k = n is the rule of three, with
-      the ends 3 / n and 1 - 3 / n. Use the Wilson interval for these cases too
-    rule-of-three 3: your interval for k = 0 and for k = n is the rule of three, with
-      the ends 3 / n and 1 - 3 / n. Use the Wilson interval for these cases too
+    rule-of-three 2: your ends for k = 0 and k = n are 3 / n and 1 - 3 / n, as in the
+      rule of three. Use the Wilson interval for these cases too
+    rule-of-three 3: your ends for k = 0 and k = n are 3 / n and 1 - 3 / n, as in the
+      rule of three. Use the Wilson interval for these cases too
     plus-four: your code uses the Wald interval with p = (k + 2) / (n + 4) (Agresti and
       Coull). Use the Wilson interval instead
     plus-four 2: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and

@@ -64,14 +64,15 @@ def _(H, f, lo, hi, x):
     distance: your result is the distance to the minimiser. Compute the residual from
       the gradient at x, without the minimiser
     newton-push: your code moves x by a Newton step. Move x by minus the gradient
+      instead
     jacobi-push: your code moves x by minus the gradient divided by the diagonal of H.
       Move x by minus the gradient itself
     limits-swapped: your code swaps the lower and the upper bounds. The lower bounds
       come first
     two-pushes: your code moves x by minus twice the gradient. Move x by minus the
-      gradient
+      gradient itself
     half-a-push: your code moves x by minus half the gradient. Move x by minus the
-      gradient
+      gradient itself
     unit-box: your code replaces the bounds by -1 and 1. Use the arguments lo and hi
       instead
     which-one: your result is the index of the largest difference. Return the absolute

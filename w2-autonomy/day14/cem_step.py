@@ -65,8 +65,8 @@ def _(mean, std, noise, scores, elite):
     nan-first 3: your elite contains a sample with the score NaN, and your order of
       equal scores is reversed. Sort -scores with np.argsort(-scores, kind='stable'),
       which puts NaN last
-    ties-last-first: your code keeps the last of several equal scores. Keep the first
-      ones
+    ties-last-first: your code keeps the last of several equal scores. Keep the first of
+      them instead
     std-kept: your `std` is unchanged. Return the standard deviation of the elite
     n-minus-one: your code divides by elite - 1 in the standard deviation. Divide by
       elite instead

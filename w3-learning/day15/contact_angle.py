@@ -31,7 +31,7 @@ row.cases(
 
 @row.wrongs
 def _(phi, distance, R):
-    """small-angle: your function returns phi exp(distance / R). This is correct only
+    """small-angle: your function returns phi * exp(distance / R). This is correct only
       for small angles, where sin(phi) is almost phi. Integrate d(phi)/ds = sin(phi) / R
       instead
     one-step: your function adds distance * sin(phi) / R once. The rate sin(phi) / R
