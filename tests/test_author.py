@@ -1,5 +1,6 @@
 """A new day's skeleton passes; what is wrong with a day is told with its line."""
 
+import re
 import shutil
 import subprocess
 
@@ -44,6 +45,16 @@ def test_a_new_day_is_all_as_it_must_be(kit):
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stdout.count("PASS") == 14
     assert f"**[Day 46: Trial]({GUIDE})**" in (kit / "README.md").read_text()
+
+
+def test_a_new_week_begins_with_a_retrospective_of_its_own(kit):
+    """It is no copy of another week's, which asks about the capstone of that week."""
+    template = ROOT / "labkit/commands/templates/RETRO.md.txt"
+    number = re.search(r"\d+", WEEK)[0]
+    own = (kit / WEEK / "docs" / f"RETRO_w{number}.md").read_text("utf-8")
+    assert own == template.read_text("utf-8").replace("$weeknumber", number)
+    assert own.startswith(f"# Week {number}: ")
+    assert "<!-- numbers -->" in own
 
 
 def test_what_the_skeleton_says_for_the_author_is_told_and_a_worksheet_is_written(kit):
