@@ -148,6 +148,8 @@ def test_a_shape_is_read_behind_its_argument_alone():
     text = "Return Y, (n, 7), of X (n, d). q, (7,), at (1, 2) is W (2, 2)."
     found = docstring._documented_shapes(text, ["X", "q", "W"])
     assert found == [("X", "n, d"), ("q", "7,"), ("W", "2, 2"), ("", "n, 7")]
+    found = docstring._documented_shapes("Return A^-1 e, (n,). e is (m,).", ["A", "e"])
+    assert found == [("e", "m,"), ("", "n,")]
 
 
 def test_a_row_of_the_skeleton_has_few_lines_that_are_no_content():

@@ -224,9 +224,12 @@ def _documented_shapes(text: str, arguments: Sequence[str]) -> list[tuple[str, s
     first = text.partition(". ")[0]
     told, answers = [], []
     for shape in _SHAPE.finditer(text):
-        if shape.start() in found:
+        of_the_answer = text[shape.start() - 2 :][:1] == ","
+        # Behind "Return A^-1 e, (n,)." the first sentence ends: it is no shape of e.
+        ends = of_the_answer and shape.end() == len(first.rstrip("."))
+        if shape.start() in found and not ends:
             told.append((found[shape.start()], shape[1]))
-        elif shape.end() <= len(first) and text[shape.start() - 2 :][:1] == ",":
+        elif shape.end() <= len(first) and of_the_answer:
             answers.append(("", shape[1]))
     # Several answers do not show to which result each belongs.
     return [*told, *answers] if len(answers) == 1 else told

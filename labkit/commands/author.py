@@ -212,11 +212,12 @@ def look(name: str, day: Day) -> bool:
 def one_task(day: Day, task: Task) -> int:
     """Look at one task alone, which takes seconds and needs no guide yet."""
     print(f"Task {task.id}: {', '.join(task.functions)}, in {shown(day.own)}/")
-    found = []
+    rows, found = rows_of(day), []
     for name in task.functions:
+        _ = rows[name].ask  # a row that is not whole stops here, with its reason
         code, lines = run(day, "tests/catalogue.py", str(day.number), f"{name}:")
         found += lines[:-1] if code else []
-        found += docstring.faults_of(rows_of(day)[name])
+        found += docstring.faults_of(rows[name])
         print(f"{cli.verdict(not code)}  {name}: {lines[-1] if lines else 'nothing'}")
     told = list(student.check(day, task.id))
     print(f"{cli.verdict(not told)}  make check, on the lab's own file")
@@ -245,8 +246,9 @@ def main() -> int:
         skipped = options.fast and name == "tests"
         wrong += [] if skipped or look(name, day) else [name]
         if wrong == ["files"]:  # nothing else could say more than that
-            first = day.tasks[0].id
-            print(f"    the rest comes then; one task now: make author TASK={first}")
+            last = day.tasks[-1].id
+            says = "The other checks need these files. One task can be checked alone: "
+            print(cli.wrapped(f"    {says}make author TASK={last}", "    "))
             break
     says = f"faults in: {', '.join(wrong)}" if wrong else ""
     return cli.conclude(not wrong, says or "no faults")
