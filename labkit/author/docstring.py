@@ -52,6 +52,19 @@ def faults_of(row: Row) -> Iterator[str]:
         yield f"it stops at a question of its own: {type(error).__name__}: {error}"
 
 
+def capitals(row: Row) -> Iterator[str]:
+    """Yield the sentences of mistakes that begin with a capital, as in "Your code ...".
+
+    A sentence may follow "In line 12, ". A name in capitals, such as "R is", is none.
+    """
+    for way in row.named:
+        if re.match(r"[A-Z][a-z]+ ", way.says):
+            yield (
+                f"the sentence of {way.slug} begins with a capital, but it may follow "
+                f'"In line 12, ": {way.says.partition(". ")[0]}'
+            )
+
+
 def _called(function: Callable[..., Any], call: str, like: Sequence[Any]) -> Any:
     """Return what a function answers to a call, typed as text.
 
