@@ -90,7 +90,10 @@ def test_what_the_skeleton_says_for_the_author_is_told_and_a_worksheet_is_writte
     assert done.returncode == 0, done.stdout
     says = " ".join(done.stdout.split())
     assert "wrote w9-trial/docs/day46.md, yours to fill in" in says
-    assert 'docs/day46.md has the skeleton\'s "What do you want to ask?" still' in says
+    assert (
+        'docs/day46.md still has the words of the skeleton: "What do you want to ask?"'
+        in says
+    )
 
 
 def test_its_starter_is_to_do_and_its_lab_passes(kit):

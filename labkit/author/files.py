@@ -67,7 +67,7 @@ def unwritten(day: Day) -> Iterator[str]:
         for ending, words in SKELETON.items():
             left = [one for one in words if path.name.endswith(ending) and one in text]
             for one in left:
-                yield f'{shown(path)} has the skeleton\'s "{one}" still'
+                yield f'{shown(path)} still has the words of the skeleton: "{one}"'
 
 
 def _regions(day: Day) -> Iterator[str]:
