@@ -5,6 +5,7 @@ of everything: a link's frame sits inside the link, where nobody would see it.
 """
 
 from collections.abc import Mapping
+from types import MappingProxyType
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
@@ -22,9 +23,19 @@ Pixel = tuple[float, float]
 
 
 def draw_frames(
-    picture: Image.Image, camera: Camera, frames: Mapping[str, Array]
+    picture: Image.Image,
+    camera: Camera,
+    frames: Mapping[str, Array],
+    points: Mapping[str, Array] = MappingProxyType({}),
 ) -> Image.Image:
-    """Return a camera's picture with frames, {name: (4, 4)}, named at its sides."""
+    """Return a camera's picture with frames and points, named at its sides.
+
+    Args:
+        picture: what the camera sees.
+        camera: of the picture.
+        frames: {name: (4, 4)}.
+        points: {name: (n, 3)}; the name stands beside the first.
+    """
     size = picture.width * SMOOTH, picture.height * SMOOTH
     layer = Layer(size)
     seen = {}
@@ -33,12 +44,14 @@ def draw_frames(
         tips = T[:3, 3] + length * T[:3, :3].T
         seen[name] = camera.project(np.vstack([origin, tips]), size)
         layer.triad(seen[name])
+    ends = [*seen.values()]
+    seen |= {name: camera.project(p, size) for name, p in points.items()}
     # Labels are drawn over the triads, since a leader ends at an origin.
     layer.labels(seen)
-    first, *_, last = [*seen.values()] * 2
-    for ends in (first, last):
-        layer.letters(ends)
-    layer.legend()
+    for one in ends[:1] + ends[1:][-1:]:
+        layer.letters(one)
+    if ends:
+        layer.legend()
     return layer.over(picture)
 
 

@@ -140,7 +140,7 @@ def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> No
         size = original.size
         pos = R @ original.pos + t
         mat = R @ original.mat
-        copy = _added(scene, original.type, size, pos, mat, colour)
+        copy = add_shape(scene, original.type, size, pos, mat, colour)
         copy.objtype, copy.objid = original.objtype, original.objid
         copy.dataid, copy.camdist = original.dataid, original.camdist
         copy.transparent = 1
@@ -152,13 +152,13 @@ def add_box(scene: mujoco.MjvScene, box: Box) -> None:
     t = box.T_world_box[:3, 3]
     colour = np.array(box.colour, dtype=np.float32)
     kind = mujoco.mjtGeom.mjGEOM_BOX
-    shape = _added(scene, kind, np.array(box.half), t, R, colour)
+    shape = add_shape(scene, kind, np.array(box.half), t, R, colour)
     shape.objtype = mujoco.mjtObj.mjOBJ_UNKNOWN
     shape.objid = -1
     shape.dataid, shape.transparent = -1, 0
 
 
-def _added(
+def add_shape(
     scene: mujoco.MjvScene, kind: int, size: Array, pos: Array, R: Array, colour: Any
 ) -> mujoco.MjvGeom:
     """Return a shape that is drawn besides.

@@ -352,8 +352,7 @@ class Inspector:
 
     def show_tasks(self) -> None:
         """Show how the tasks stand, in the open tab too."""
-        if isinstance(self.tab, Tasks):
-            self.tab.show(self.standing)
+        self.guarded(partial(self.tab.judged, self.standing))
         self.schedule()
 
     def close(self) -> None:

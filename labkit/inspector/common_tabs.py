@@ -15,6 +15,7 @@ from labkit.check.tasks import TaskResult
 from labkit.inspector import typed, words
 from labkit.inspector.arm import Step
 from labkit.inspector.declared import Declared, buttons, panel
+from labkit.inspector.failing import named
 from labkit.inspector.page import Page
 from labkit.inspector.tab import Tab
 from labkit.judge.mistake import Verdict
@@ -206,8 +207,13 @@ class Standing:
 ASKING = Standing("asking your functions ...", "asking")
 
 
-def standing(results: Sequence[TaskResult]) -> Standing:
-    """Return the tasks, in the day's order, and the first verdict to act on."""
+def standing(results: Sequence[TaskResult], task: str = "") -> Standing:
+    """Return the tasks, in the day's order, and the first verdict to act on.
+
+    Args:
+        results: of all tasks.
+        task: the id of the one that comes first while it is wrong.
+    """
     first = results[0].verdict if results else Verdict("passed")
     if first.mistake == "does-not-load":  # one reason, for all of them
         todo = Verdict(first.status)
@@ -220,15 +226,10 @@ def standing(results: Sequence[TaskResult]) -> Standing:
     wrong = [r for r in results if r.verdict.status not in ("passed", "todo")]
     if not wrong:
         after = next(r for r in results if not r.passed)
-        title = f"Next: {_named(after)}"
+        title = f"Next: {named(after)}"
         return Standing(after.task.title, "quiet", tasks, title, count)
-    return Standing(wrong[0].verdict.message, "bad", tasks, _named(wrong[0]), count)
-
-
-def _named(result: TaskResult) -> str:
-    """Return "5.1 pd_torque": the task and the function that was judged."""
-    names = result.verdict.function or ", ".join(result.task.functions)
-    return f"{result.task.id} {names}"
+    chosen = next((r for r in wrong if r.task.id == task), wrong[0])
+    return Standing(chosen.verdict.message, "bad", tasks, named(chosen), count)
 
 
 class Tasks(Tab):
@@ -239,9 +240,9 @@ class Tasks(Tab):
     def __init__(self, page: Page) -> None:
         super().__init__(page)
         self.list = page.html()
-        self.show(page.host.standing)
+        self.judged(page.host.standing)
 
-    def show(self, standing: Standing) -> None:
+    def judged(self, standing: Standing) -> None:
         """Show the verdicts; the line about all of them stands on top of the panel."""
         self.list.content = listed(standing)
 

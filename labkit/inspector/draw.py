@@ -59,6 +59,10 @@ class Sketch:
         """Remove everything that was drawn here."""
         self.root.remove()
 
+    def part(self) -> "Sketch":
+        """Return a sketch that goes with this one, or is cleared before."""
+        return Sketch(self.server, self.coarse, self.path())
+
     def path(self) -> str:
         """Return a name in the scene tree for one more node of this tab."""
         return f"{self.root.name}/{next(NUMBERS)}"
