@@ -32,7 +32,7 @@ ABOUT = (
     "        (Tab shows the options). Close it, or Ctrl-C here, to end",
 )
 OF_A_CALL = (
-    "window: white is an argument, red YOUR answer, green the expected answer",
+    "window: white is an argument, red YOUR answer, blue the expected answer",
     "        (axes: x red, y green, z blue). Close it, or Ctrl-C here, to end",
 )
 # MuJoCo's viewer needs a GLFW window with an OpenGL context.

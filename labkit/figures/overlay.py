@@ -5,7 +5,6 @@ of everything: a link's frame sits inside the link, where nobody would see it.
 """
 
 from collections.abc import Mapping
-from types import MappingProxyType
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
@@ -23,19 +22,9 @@ Pixel = tuple[float, float]
 
 
 def draw_frames(
-    picture: Image.Image,
-    camera: Camera,
-    frames: Mapping[str, Array],
-    points: Mapping[str, Array] = MappingProxyType({}),
+    picture: Image.Image, camera: Camera, frames: Mapping[str, Array]
 ) -> Image.Image:
-    """Return a camera's picture with frames and points, named at its sides.
-
-    Args:
-        picture: what the camera sees.
-        camera: of the picture.
-        frames: {name: (4, 4)}.
-        points: {name: (n, 3)}; the name stands beside the first.
-    """
+    """Return a camera's picture with frames, {name: (4, 4)}, named at its sides."""
     size = picture.width * SMOOTH, picture.height * SMOOTH
     layer = Layer(size)
     seen = {}
@@ -44,14 +33,12 @@ def draw_frames(
         tips = T[:3, 3] + length * T[:3, :3].T
         seen[name] = camera.project(np.vstack([origin, tips]), size)
         layer.triad(seen[name])
-    ends = [*seen.values()]
-    seen |= {name: camera.project(p, size) for name, p in points.items()}
     # Labels are drawn over the triads, since a leader ends at an origin.
     layer.labels(seen)
-    for one in ends[:1] + ends[1:][-1:]:
-        layer.letters(one)
-    if ends:
-        layer.legend()
+    first, *_, last = [*seen.values()] * 2
+    for ends in (first, last):
+        layer.letters(ends)
+    layer.legend()
     return layer.over(picture)
 
 
@@ -99,16 +86,18 @@ class Layer:
         r = radius * self.unit
         self.pen.ellipse((at[0] - r, at[1] - r, at[0] + r, at[1] + r), colour)
 
-    def triad(self, ends: Array) -> None:
+    def triad(self, ends: Array, rim: tuple[int, ...] = HALO, width: float = 4) -> None:
         """Draw a frame's axes, the nearest last.
 
         Args:
             ends: pixels of the origin and the three tips, and their depth, (4, 3).
+            rim: the colour around the axes.
+            width: of the rim, both sides together.
         """
         origin, *tips = ((float(x), float(y)) for x, y, _ in ends)
         axes = sorted(zip(ends[1:, 2], tips, (X, Y, Z), strict=True), reverse=True)
         for _, tip, colour in axes:
-            self.arrow(origin, tip, HALO, 4)
+            self.arrow(origin, tip, rim, width)
             self.arrow(origin, tip, colour, 0)
         self.dot(origin, INK, 4.5)
 

@@ -15,7 +15,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.figures.scene import FOVY, Box, Camera, Ghost, Scene
+from labkit.figures.scene import FOVY, NOBODY, Box, Camera, Ghost, Scene
 from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -81,8 +81,11 @@ def renderer_for(
         far: from the camera to what it looks at, metres.
     """
     if robot:
-        spec = mujoco.MjSpec.from_file(robot)
+        nobody = robot == NOBODY
+        spec = mujoco.MjSpec() if nobody else mujoco.MjSpec.from_file(robot)
         light_up(spec)
+        if nobody:
+            spec.visual.rgba.haze = [*SKY, 1.0]  # it would be white at the horizon
         model = spec.compile()
     else:
         model = panda.load("panda", meshes=True, edit=light_up)

@@ -31,6 +31,7 @@ from robo47.checks import Array
 if TYPE_CHECKING:
     from labkit.inspector.common_tabs import Standing
     from labkit.inspector.page import Page
+    from labkit.inspector.scene import View
 
 GIVEN, YOURS, EXPECTED = "given", "yours", "expected"
 JOINTS = 7
@@ -40,9 +41,11 @@ PLACES = re.compile(
 )
 IN_SPACE = re.compile(r"\bmetres\b|\bpoints?\b|\bcentres? of mass\b")
 FARTHEST = 5.0  # metres; what is farther away is not drawn
+AROUND = 0.2  # metres around what is drawn
 MOST = 40  # points or poses of one argument
-COLOURS = {GIVEN: (236, 239, 243), YOURS: (232, 64, 58), EXPECTED: (0, 178, 132)}
+COLOURS = {GIVEN: (236, 239, 243), YOURS: (232, 64, 58), EXPECTED: (70, 145, 235)}
 MEANING = {GIVEN: "an argument", YOURS: "YOUR answer", EXPECTED: "the expected answer"}
+FROM, SHARE = (1.3, -1.7, 0.9), 0.8  # to the camera; of the picture's height
 RADII = {GIVEN: 0.012, YOURS: 0.016, EXPECTED: 0.014}  # metres; none hides another
 BESIDE = 0.07 * np.ones(3)  # metres from a frame's origin to its name, in its axes
 
@@ -69,15 +72,23 @@ class Drawing:
     points: tuple[Thing, ...] = ()
 
     @property
-    def there(self) -> bool:
-        """Whether anything can be drawn."""
-        return bool(self.arms or self.frames or self.points)
+    def all(self) -> tuple[Thing, ...]:
+        """All of it; nothing where nothing can be drawn."""
+        return (*self.arms, *self.frames, *self.points)
 
     @property
     def q(self) -> Array | None:
         """The configuration in which the arm stands, (7,), or None."""
         given = (arm.value for arm in self.arms if arm.whose == GIVEN)
         return next(given, None)
+
+    @property
+    def ball(self) -> tuple[Array, float]:
+        """The middle and the radius of a ball around frames and points, metres."""
+        places = [one.value[None, :3, 3] for one in self.frames]
+        some = np.vstack([*places, *(one.value for one in self.points)])
+        low, high = some.min(axis=0), some.max(axis=0)
+        return (low + high) / 2, float(np.linalg.norm(high - low)) / 2 + AROUND
 
     @property
     def others(self) -> tuple[Thing, ...]:
@@ -98,7 +109,7 @@ def sentence_of(result: TaskResult, drawing: Drawing) -> str:
         return f"Task {id} passes, so none of its calls fails. All tabs: make view"
     if verdict.example is None:
         return f"Task {id} has no failing call yet. {verdict.message}".rstrip()
-    if not drawing.there:
+    if not drawing.all:
         what = "The failing call has no configuration, pose or point to draw."
         return f"Task {id}: {what} To read it: make check TASK={id}"
     return ""
@@ -217,8 +228,23 @@ def se3_like(R: Array) -> Array:
 
 def failing_tab(day: Day, result: TaskResult) -> type[Tab]:
     """Return a tab that shows a task's failing call, anew after every check."""
-    about = {"title": named(result), "day": day, "result": result}
+    about: dict[str, Any] = {"title": named(result), "day": day, "result": result}
+    drawing = drawing_of(day, result)
+    if drawing.q is None and (drawing.frames or drawing.points):
+        about["camera"] = _view(*drawing.ball)
     return type("OfTheTask", (FailingCall,), about)
+
+
+def _view(middle: Array, radius: float) -> "View":
+    """Return from where to look at a ball, so that it is left of the panel."""
+    from labkit.inspector.scene import BESIDE, FOV
+
+    distance = radius / np.tan(FOV / 2) / SHARE
+    back = np.array(FROM) / np.linalg.norm(FROM)
+    right = np.cross([0.0, 0.0, 1.0], back)
+    right /= np.linalg.norm(right)
+    aim = middle + 2 * distance * np.tan(FOV / 2) * BESIDE * right
+    return tuple(aim + distance * back), tuple(aim)
 
 
 class FailingCall(Tab):
@@ -235,6 +261,8 @@ class FailingCall(Tab):
         self.sketch: Any = None
         self.ghosts = {whose: page.draw.ghost(c) for whose, c in COLOURS.items()}
         page.light(None, ())
+        if drawing_of(self.day, self.result).q is None:
+            page.hide_arm()
         page.legend({MEANING[whose]: colour for whose, colour in COLOURS.items()})
         self.show(self.result)
 
