@@ -170,15 +170,13 @@ def test_the_native_window_has_the_same_frames_points_and_arms():
     assert scene.ngeom > before + 10
 
 
-@pytest.mark.gl
-@pytest.mark.usefixtures("gl")
 def test_the_picture_shows_the_frames_and_says_the_call(monkeypatch):
     need(importlib.util.find_spec("PIL") is not None, "Pillow: make figures")
     from labkit.figures import overlay
     from labkit.inspector.failing_picture import picture_of
 
     empty = np.zeros((800, 1200, 3), np.uint8)  # it has the overlay alone
-    monkeypatch.setattr("labkit.inspector.failing_picture.draw", lambda scene: empty)
+    monkeypatch.setattr(client, "draw", lambda scene: empty)
     named = []
     label = overlay.Layer.label
     monkeypatch.setattr(
@@ -191,7 +189,6 @@ def test_the_picture_shows_the_frames_and_says_the_call(monkeypatch):
     seen = np.asarray(picture)
     for colour in (overlay.X, overlay.Y, overlay.Z):
         assert (np.abs(seen.astype(int) - colour).max(axis=2) < 8).sum() > 100
-    assert client.draw
 
 
 @pytest.fixture

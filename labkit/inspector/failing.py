@@ -41,12 +41,13 @@ PLACES = re.compile(
 )
 IN_SPACE = re.compile(r"\bmetres\b|\bpoints?\b|\bcentres? of mass\b")
 FARTHEST = 5.0  # metres; what is farther away is not drawn
-AROUND = 0.2  # metres around what is drawn
+AROUND = 0.3  # metres around what is drawn
 MOST = 40  # points or poses of one argument
 COLOURS = {GIVEN: (236, 239, 243), YOURS: (232, 64, 58), EXPECTED: (70, 145, 235)}
 MEANING = {GIVEN: "an argument", YOURS: "YOUR answer", EXPECTED: "the expected answer"}
 FROM, SHARE = (1.3, -1.7, 0.9), 0.8  # to the camera; of the picture's height
 RADII = {GIVEN: 0.012, YOURS: 0.016, EXPECTED: 0.014}  # metres; none hides another
+AXES = {GIVEN: 0.12, YOURS: 0.15, EXPECTED: 0.18}  # metres of a frame's axes
 BESIDE = 0.07 * np.ones(3)  # metres from a frame's origin to its name, in its axes
 
 
@@ -297,17 +298,19 @@ class FailingCall(Tab):
         if self.sketch is not None:
             self.sketch.clear()
         self.sketch = sketch = self.page.draw.part()
-        names, places = [], []
+        words_at = []
         for one in drawing.frames:
-            sketch.frame("", one.value).show(visible=True, chosen=True)
-            origin = one.value[:3, 3]
-            sketch.sphere(origin, RADII[one.whose], COLOURS[one.whose])
-            names.append(one.label)
-            places.append(origin + one.value[:3, :3] @ BESIDE)
+            origin, radius = one.value[:3, 3], RADII[one.whose]
+            ends = origin + AXES[one.whose] * one.value[:3, :3].T
+            arrows = np.stack([np.broadcast_to(origin, ends.shape), ends], axis=1)
+            sketch.arrows(arrows, COLOURS[one.whose], 0.4 * radius)
+            sketch.sphere(origin, radius, COLOURS[one.whose])
+            words_at += zip("xyz", ends, strict=True)
+            words_at += [(one.label, origin + one.value[:3, :3] @ BESIDE)]
         for one in drawing.points:
             for point in one.value:
                 sketch.sphere(point, RADII[one.whose], COLOURS[one.whose])
-            names.append(one.label)
-            places.append(one.value[0] + BESIDE)
-        if names:
-            sketch.labels(names).show(np.array(places))
+            words_at += [(one.label, one.value[0] + BESIDE)]
+        if words_at:
+            texts, places = zip(*words_at, strict=True)
+            sketch.labels(texts).show(np.array(places))
