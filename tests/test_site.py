@@ -202,6 +202,10 @@ def test_an_accented_letter_has_its_index_beside_it_and_its_dot_clear_of_it():
     assert "accent" not in mathml(r"\ddot q + \hat x")  # set into the letter at 1x
     assert mathml(r"a \sin q").count("<mspace") == 2  # "asin q" is another function
     assert "<mspace" not in mathml(r"\sin(q)")
+    # An index is as low at a letter with a tail as at another one.
+    assert '<mpadded depth="0em"><mi>q</mi>' in mathml("q_s")
+    assert "mpadded" not in mathml("q + a_s")
+    assert mathml("d = |q|").count('lspace="0em"') == 2
 
 
 def test_an_equation_of_a_docstring_keeps_its_lines():
