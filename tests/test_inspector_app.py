@@ -588,4 +588,7 @@ def test_a_logarithmic_axis_has_one_tick_a_decade_and_reaches_over_the_curves():
     plot.show([0.0, 1.0], [[1.0, 1e12]])  # not every decade has a label any more
     assert len([label for label in plot.handle.axes[1]["values"] if label]) <= 9
     plain = Plot(gui, ("error",), "t (s)", "", 150, 0.0)
+    for one in (plot, plain):  # the axis has its name, the legend no empty values
+        assert one.handle.axes[0]["label"] == "t (s)"
+        assert one.handle.legend == {"live": False}
     assert "y" not in plain.handle.scales
