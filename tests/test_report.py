@@ -387,7 +387,7 @@ PARTS = ".card, .tile, h3, dl, svg"  # what stays inside of the window
 MEASURE = """<body><iframe id=f style="width:{width}px;height:900px" srcdoc="{page}">
 </iframe><script>onload = () => {{
   const d = document.getElementById('f').contentDocument;
-  const wide = [...d.querySelectorAll('{parts}')]
+  const wide = [...d.querySelectorAll('.card, .tile, h3, dl, svg')]
     .filter(e => e.getBoundingClientRect().right > {width} + 1).length;
   document.title = [d.title, d.documentElement.scrollWidth, wide,
     d.querySelectorAll('circle').length, d.querySelectorAll('.note').length,
@@ -399,7 +399,8 @@ def measured(
     chromium: str, folder: Path, text: str, width: int, parts: str = PARTS
 ) -> list[str]:
     """Return a page's title and what MEASURE counts in it, in a window of a width."""
-    harness = MEASURE.format(width=width, page=html.escape(text), parts=parts)
+    harness = MEASURE.replace(PARTS, parts)
+    harness = harness.format(width=width, page=html.escape(text))
     found = re.search(r"<title>(.*?)</title>", dom(chromium, folder, harness))
     assert found is not None
     return found[1].rsplit(maxsplit=5)
@@ -432,3 +433,11 @@ def test_the_days_need_no_scrolling_on_a_phone(chromium, tmp_path):
     text = pages.page("robo47", "", table, style=overview.STYLE)
     _, _, beyond, *_ = measured(chromium, tmp_path, text, 390, "tr > *")
     assert beyond == "0"
+
+
+def test_a_counter_of_nothing_is_left_out_but_for_what_passes(log):
+    text = page.render(report_on(log, line(value=1.0)), "")
+    labels = re.findall(r'<span class="muted">([a-z ]+)</span></div>', text)
+    assert "passing" in labels  # the first counter says 0
+    assert "lines to look at" not in labels
+    assert re.findall(r'class="tile"><b class="\w*">(\d+)', text).count("0") <= 1

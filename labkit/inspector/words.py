@@ -196,10 +196,14 @@ def state(address: str, heard: int) -> str:
     return f'<div hidden data-r47-state="{told}"></div>'
 
 
-def legend(colours: Mapping[str, tuple[int, int, int]]) -> str:
-    """Return what the colours in the scene mean, {what is drawn: its colour}."""
+def legend(colours: Mapping[str, tuple[int, int, int]], where: str = "") -> str:
+    """Return what colours mean, {what is drawn: its colour}.
+
+    With "stage" it stands over the scene, else where it is made.
+    """
     made = "".join(
         f'<span><i style="background:rgb{rgb}"></i>{escape(what)}</span>'
         for what, rgb in colours.items()
     )
-    return f'<div class="r47 r47-legend" data-line="legend">{made}</div>'
+    kind = f"r47 r47-legend r47-{where}" if where else "r47 r47-legend"
+    return f'<div class="{kind}" data-line="legend">{made}</div>' if made else ""
