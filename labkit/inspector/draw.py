@@ -100,6 +100,14 @@ class Sketch:
             position=np.asarray(at, dtype=np.float64),
         )  # fmt: skip
 
+    def disc(
+        self, radius: float, height: float, colour: Colour = "grey"
+    ) -> viser.CylinderHandle:
+        """Draw an upright cylinder, metres; setting `position` moves its middle."""
+        return self.server.scene.add_cylinder(
+            self.path(), radius, height, rgb(colour), radial_segments=48
+        )
+
     def box(
         self, half: ArrayLike, colour: Colour = "grey", opacity: float | None = None
     ) -> viser.BoxHandle:
