@@ -357,7 +357,7 @@ def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path, capsys):
     assert "Ada -x: week 1" in text
     words = Seen(text).words
     assert "a teacher's kit" in words
-    assert "None of the functions that move the arm is theirs yet." in words
+    assert "None of the functions that move the arm is the student's yet." in words
     assert not (tmp_path / "proof" / "bob.html").exists()
 
 

@@ -12,6 +12,7 @@ from viser import uplot
 from robo47.checks import Array
 
 WIDE = 60  # pixels, for the numbers beside a plot: 10,000
+LOW = 34  # pixels, for the numbers below a plot
 NAMED = 18  # pixels of the name below an axis
 LABELS = 9  # labels on a logarithmic axis, at most
 KEPT = 2_000  # points of a plot that is added to
@@ -103,7 +104,8 @@ class Plot:
         ]
         empty = tuple(np.full(1, least) for _ in series)
         self.top = 0.0  # of a logarithmic axis, at the curves' last points
-        self.across = uplot.Axis(label=x, labelSize=NAMED)
+        name = {"label": x, "labelSize": NAMED, "labelFont": "12px sans-serif"}
+        self.across = uplot.Axis(**name, size=LOW)  # type: ignore[typeddict-item]
         self.handle = gui.add_uplot(
             empty, tuple(series), title=y or None, height=height,
             scales={"x": uplot.Scale(time=False)},

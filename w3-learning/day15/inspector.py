@@ -113,7 +113,7 @@ class Clone(ui.Declared):
     )
     best = ui.scene.lines(ui.NOWHERE, "white", legend="the puck by the library")
     way = ui.yours.lines(ui.NOWHERE, "orange", 4.0, legend="the puck by your functions")
-    puck = ui.yours.disc(day15_mujoco.PUCK, UP, "orange", legend="puck")
+    puck = ui.yours.disc(day15_mujoco.PUCK, UP, "orange")
     pusher = ui.yours.disc(day15_mujoco.PUSHER, 3 * UP, "blue", legend="pusher")
 
     def ask(self, fns, at) -> Seen:
