@@ -633,6 +633,11 @@ def test_without_webgl_pictures_and_numbers_stay(browse):
     says = "document.querySelector('#stage').innerText.includes('no 3D')"
     page.wait_for_function(says, timeout=60_000)
     assert "off by" in page.inner_text("#off")
+    page = browse("index.html")
+    words = page.locator(".picture.none")
+    words.wait_for(timeout=60_000)
+    ink = words.evaluate("node => getComputedStyle(node).color.match(/\\d+/g)")
+    assert min(map(int, ink)) > 200  # on the dark ground of the stage
 
 
 @pytest.mark.browser
