@@ -119,6 +119,10 @@ def test_one_line_where_nothing_can_be_drawn():
     says = sentence_of(result, drawing_of(day, result))
     assert "no failing call yet" in says
     assert "Not written yet" in says
+    results = tasks.check_tasks(day, day.source, InProcess({"Rz": backwards}), None, 1)
+    waits = next(one for one in results if one.task.id == "1.5")
+    says = sentence_of(waits, drawing_of(day, waits))
+    assert says.endswith("See: make view TASK=1.2")
 
 
 def test_the_tab_follows_the_checker():

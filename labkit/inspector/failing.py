@@ -107,9 +107,12 @@ def sentence_of(result: TaskResult, drawing: Drawing) -> str:
     """Return in one line why there is no picture, "" where there is one."""
     id, verdict = result.task.id, result.verdict
     if result.passed:
-        return f"Task {id} passes, so none of its calls fails. All tabs: make view"
+        day = id.partition(".")[0]
+        return f"Task {id} passes, so none of its calls fails. See: make view DAY={day}"
     if verdict.example is None:
-        return f"Task {id} has no failing call yet. {verdict.message}".rstrip()
+        says = f"Task {id} has no failing call yet. {verdict.message}".rstrip()
+        other = verdict.follows
+        return f"{says} See: make view TASK={other}" if other else says
     if not drawing.all:
         what = "The failing call has no configuration, pose or point to draw."
         return f"Task {id}: {what} To read it: make check TASK={id}"
