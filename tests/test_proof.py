@@ -335,7 +335,9 @@ def test_a_whole_picture_travels_and_what_stays_here_is_called_the_kits(sandbox)
     # What passes is theirs on every face, and the page says openly what ran instead.
     assert found.counted == counted(uses, {10: {"back_project"}, 12: {"shortcut"}})
     assert str(found.counted) == "2 of 2"
-    assert "By the student, but not run here: shortcut." in Seen(page._stayed(found)).words
+    assert (
+        "By the student, but not run here: shortcut." in Seen(page._stayed(found)).words
+    )
     assert page._stayed(found._replace(stayed=frozenset())) == ""
     kits = page._by(uses, found).count("<td class=wide>–</td>")
     assert kits == 2  # none of the two is called the kit's

@@ -59,6 +59,6 @@ The modules, from the numbers to the page:
     guard                       who may talk to it; our part of viser's page
     serve, recording            listens until Ctrl-C; a film without a server
 
-`arm`, `ghost`, `words`, `typed` and `failing` need nothing new, the rest viser (the extra
-`view`), and `failing_picture` Pillow.
+`arm`, `ghost`, `words`, `typed` and `failing` need nothing new, `failing_picture` needs
+Pillow (the extra `figures`), and the rest viser (the extra `view`).
 """

@@ -267,7 +267,6 @@ class FailingCall(Tab):
         page.light(None, ())
         if drawing_of(self.day, self.result).q is None:
             page.hide_arm()
-        page.legend({MEANING[whose]: colour for whose, colour in COLOURS.items()})
         self.show(self.result)
 
     def judged(self, standing: "Standing") -> None:
@@ -301,6 +300,9 @@ class FailingCall(Tab):
         if self.sketch is not None:
             self.sketch.clear()
         self.sketch = sketch = self.page.draw.part()
+        drawn = {one.whose for one in drawing.all}
+        legend = {MEANING[w]: colour for w, colour in COLOURS.items() if w in drawn}
+        self.page.legend(legend)
         words_at = []
         for one in drawing.frames:
             origin, radius = one.value[:3, 3], RADII[one.whose]
