@@ -129,7 +129,7 @@ def test_the_tab_follows_the_checker():
     pytest.importorskip("viser", reason="the extra view")
     from tabs_on_paper import Desk
 
-    from labkit.inspector.common_tabs import ASKING, standing
+    from labkit.inspector.standing import ASKING, standing
 
     day, result = result_of("1.2", Rz=backwards)
     desk = Desk(1, failing.failing_tab(day, result), {})
@@ -149,7 +149,7 @@ def test_the_tab_follows_the_checker():
 
 def test_the_card_is_about_the_task_that_was_asked_for():
     pytest.importorskip("viser", reason="the extra view")
-    from labkit.inspector.common_tabs import standing
+    from labkit.inspector.standing import standing
 
     wrong = [result_of("1.1", make_T=lambda R, t: np.eye(4))[1]]
     wrong += [result_of("1.2", Rz=backwards)[1]]

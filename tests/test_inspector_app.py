@@ -15,12 +15,13 @@ from viser import _messages
 from labkit.inspector import serve
 from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
-from labkit.inspector.common_tabs import Joints, Standing
+from labkit.inspector.common_tabs import Joints
 from labkit.inspector.ghost import Ghost, compare, nothing
 from labkit.inspector.guard import LocalServer
 from labkit.inspector.robot import Robot
 from labkit.inspector.serve import on_loop
 from labkit.inspector.shapes import Shape
+from labkit.inspector.standing import Standing
 from labkit.inspector.tab import DayTabs, Tab, day_tabs
 from labkit.lesson.day import Day, day_numbers, find_day
 from robo47 import panda

@@ -4,11 +4,12 @@
     make view ARGS=--screenshot      a picture, without a window
     make view ARGS="--clip arm.gif"  the arm moving, and your own code's arm
     make view ARGS=--native          MuJoCo's own window
-    make view TASK=1.2               the call of task 1.2 that fails: what it was given,
-                                     your answer, the expected one; also with the others
+    make view TASK=1.2               a call of task 1.2 that fails
     python3 scripts/view_panda.py 2  without make: the page of Day 2
 
-In the browser, drag a joint. Where the result of your function differs from MuJoCo's, a
+With a task it opens at a call that fails: its configuration, poses and points, your
+answer in red and the expected one in blue; in the browser, as a picture, or in MuJoCo's
+window. In the browser, drag a joint. Where the result of your function differs from MuJoCo's, a
 red arm shows it. Your function is called again after every save, in the checker's
 sandbox. Only this machine can open the page, at an address that contains a secret.
 """
@@ -29,8 +30,9 @@ from labkit.commands import native_viewer
 from labkit.commands.start import require_begun
 from labkit.handin.figure import PORTRAIT
 from labkit.inspector.arm import Arm
-from labkit.inspector.failing import Drawing, drawing_of, named, sentence_of
+from labkit.inspector.failing import Drawing, drawing_of, sentence_of
 from labkit.inspector.ghost import Seen
+from labkit.inspector.standing import named
 from labkit.inspector.student import AGAIN, Student
 from labkit.inspector.tab import day_tabs
 from labkit.judge.ask import model_of
@@ -235,7 +237,7 @@ def parse() -> argparse.Namespace:
     how.add_argument(
         "--clip", metavar="FILE", type=Path, help="write a short .gif or .webp"
     )
-    add("--task", metavar="1.2", help="the call of this task that fails")
+    add("--task", metavar="1.2", help="a call of this task that fails")
     add("--file", type=Path, help="with --clip: whose code, instead of your own")
     add("--simple", action="store_true", help="simple meshes: a computer without a GPU")
     add("--port", type=port, default=8080, help="8080; 0 for any")

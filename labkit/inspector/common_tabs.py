@@ -2,8 +2,6 @@
 
 import math
 import secrets
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,14 +9,12 @@ import mujoco
 import numpy as np
 import viser
 
-from labkit.check.tasks import TaskResult
 from labkit.inspector import typed, words
 from labkit.inspector.arm import Step
 from labkit.inspector.declared import Declared, buttons, panel
-from labkit.inspector.failing import named
 from labkit.inspector.page import Page
+from labkit.inspector.standing import Standing
 from labkit.inspector.tab import Tab
-from labkit.judge.mistake import Verdict
 from robo47.checks import Array
 
 RANDOM, UNDO = "random", "undo"
@@ -190,46 +186,6 @@ def says_of(this: Step, number: int, of: int, whole: bool) -> str:
         + words.matrix(f"@ {this.name}", this.factor, "factor", marked, mark)
         + words.matrix(f"= {product}", this.after, "product")
     )
-
-
-@dataclass(frozen=True)
-class Standing:
-    """How the day's tasks stand."""
-
-    sentence: str  # the verdict; "" where there is no file
-    kind: str = "quiet"  # or "good" or "bad"
-    # in the day's order; () before the first verdict
-    tasks: tuple[TaskResult, ...] = ()
-    title: str = "make check"  # the task and the function that the sentence is about
-    count: str = ""  # such as "4 of 8 pass"
-
-
-ASKING = Standing("asking your functions ...", "asking")
-
-
-def standing(results: Sequence[TaskResult], task: str = "") -> Standing:
-    """Return the tasks, in the day's order, and the first verdict to act on.
-
-    Args:
-        results: of all tasks.
-        task: the id of the one that comes first while it is wrong.
-    """
-    first = results[0].verdict if results else Verdict("passed")
-    if first.mistake == "does-not-load":  # one reason, for all of them
-        todo = Verdict(first.status)
-        bare = tuple(replace(result, verdict=todo) for result in results)
-        return Standing(first.message, "bad", bare)
-    tasks, passed = tuple(results), sum(result.passed for result in results)
-    count = f"{passed} of {len(results)} pass"
-    if passed == len(results):
-        return Standing("All tasks pass.", "good", tasks, count=count)
-    wrong = [r for r in results if r.verdict.status not in ("passed", "todo")]
-    if not wrong:
-        after = next(r for r in results if not r.passed)
-        title = f"Next: {named(after)}"
-        return Standing(after.task.title, "quiet", tasks, title, count)
-    chosen = next((r for r in wrong if r.task.id == task), wrong[0])
-    return Standing(chosen.verdict.message, "bad", tasks, named(chosen), count)
 
 
 class Tasks(Tab):

@@ -17,6 +17,7 @@ import numpy as np
 from labkit.check.tasks import TaskResult
 from labkit.inspector import words
 from labkit.inspector.ghost import nearest_pose
+from labkit.inspector.standing import Standing, named
 from labkit.inspector.tab import Tab
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Example, Finding
@@ -29,7 +30,6 @@ from robo47 import se3
 from robo47.checks import Array
 
 if TYPE_CHECKING:
-    from labkit.inspector.common_tabs import Standing
     from labkit.inspector.page import Page
     from labkit.inspector.scene import View
 
@@ -95,12 +95,6 @@ class Drawing:
     def others(self) -> tuple[Thing, ...]:
         """The other configurations."""
         return tuple(arm for arm in self.arms if arm.value is not self.q)
-
-
-def named(result: TaskResult) -> str:
-    """Return "5.1 pd_torque": the task and the function that was judged."""
-    names = result.verdict.function or ", ".join(result.task.functions)
-    return f"{result.task.id} {names}"
 
 
 def sentence_of(result: TaskResult, drawing: Drawing) -> str:
@@ -269,7 +263,7 @@ class FailingCall(Tab):
             page.hide_arm()
         self.show(self.result)
 
-    def judged(self, standing: "Standing") -> None:
+    def judged(self, standing: Standing) -> None:
         """Show the same task's call of the newest check, or that it is at work."""
         self.text.content = words.line(standing.sentence, "call", standing.kind)
         for result in standing.tasks:

@@ -23,10 +23,10 @@ from labkit.check.tasks import TaskResult, check_tasks
 from labkit.inspector import plain
 from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
-from labkit.inspector.common_tabs import Standing, standing
 from labkit.inspector.failing import failing_tab
 from labkit.inspector.guard import LOOPBACK, LocalServer
 from labkit.inspector.shapes import GRID, shapes, simple_links, thinned
+from labkit.inspector.standing import Standing, standing
 from labkit.inspector.student import Student
 from labkit.inspector.tab import day_tabs
 from labkit.lesson.day import Day

@@ -9,9 +9,9 @@ from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 if TYPE_CHECKING:
-    from labkit.inspector.common_tabs import Standing
     from labkit.inspector.page import Page
     from labkit.inspector.scene import View
+    from labkit.inspector.standing import Standing
 
 FILE = "inspector"
 PLAYS = 6.0  # seconds that a tab plays by itself
