@@ -297,7 +297,7 @@ class FailingCall(Tab):
         drawn = {one.whose for one in drawing.all}
         legend = {MEANING[w]: colour for w, colour in COLOURS.items() if w in drawn}
         self.page.legend(legend)
-        words_at = []
+        words_at: list[tuple[str, Array]] = []
         for one in drawing.frames:
             origin, radius = one.value[:3, 3], RADII[one.whose]
             ends = origin + AXES[one.whose] * one.value[:3, :3].T
