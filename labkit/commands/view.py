@@ -11,7 +11,8 @@ With a task it opens at a call that fails: its configuration, poses and points, 
 answer in red and the expected one in blue; in the browser, as a picture, or in MuJoCo's
 window. In the browser, drag a joint. Where the result of your function differs from
 MuJoCo's, a red arm shows it. Your function is called again after every save, in the
-checker's sandbox. Only this machine can open the page, at an address that contains a secret.
+checker's sandbox. Only this machine can open the page, at an address that contains a
+secret.
 """
 
 import argparse
