@@ -72,8 +72,13 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
         if verdict.status != "passed" and verdict.mistake not in NO_CALL:
             failed = attempt(failing_call, asked, names, otherwise=Failing())
             measured = verdict.measured + failed.whole
-            told_of = {"call": failed.call, "compared": failed.compared}
-            verdict = replace(verdict, measured=measured, **told_of)
+            verdict = replace(
+                verdict,
+                measured=measured,
+                call=failed.call,
+                compared=failed.compared,
+                example=failed.example,
+            )
     if verdict.status in ("passed", "todo"):
         return verdict
     return replace(verdict, message=f"{verdict.message} {told(stopped)}".strip())
