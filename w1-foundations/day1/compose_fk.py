@@ -40,7 +40,7 @@ def _prefixes(rng):
 
 
 row = Row(
-    Pose(wrong_way="maps the world to the end effector"),
+    Pose(wrong_way="maps world coordinates to end-effector coordinates"),
     truth=by_mujoco,
     near=NEAR,
     alike=[*places.ALIKE, {"stops-at-link7", "stops-early"}],

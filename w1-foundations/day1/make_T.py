@@ -26,7 +26,8 @@ def _(R, t):
     t-turned-back: your code multiplies t by the transpose of R, but t is already
       expressed in the frame to which T maps. Use t unchanged
     type-of-R: your array has the data type of R. If R contains integers, as in
-      `np.eye(3, dtype=int)`, the fractional parts of t are lost
+      `np.eye(3, dtype=int)`, the array truncates t to whole numbers. Create an array of
+      floats instead
     """
     whole = np.array_equal(R, np.round(R))
     return {

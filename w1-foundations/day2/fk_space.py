@@ -37,7 +37,7 @@ def _(screws, M, q):
 @row.wrong
 def screws_moved_along(screws, M, q):
     """your code transforms each screw by the motions of the joints before it. The
-    product already includes these motions, so use the screws at q = 0"""
+    product already includes these motions, so use the screws at q = 0 unchanged"""
     T = np.eye(4)
     for S, theta in zip(screws, q, strict=True):
         T = T @ motion(adjoint(T) @ S, theta)

@@ -29,8 +29,8 @@ def wrapped(angle):
 
 WRAPPED = Change(
     "error-wrapped",
-    "your code wraps {name} to [-pi, pi]. These joints have limits, so e and e + 2 pi "
-    "are different errors",
+    "your code wraps {name} to [-pi, pi]. Use {name} unchanged, because e and e + 2 "
+    "pi are different errors of a joint with limits",
     wrapped,
     hidden="no error there exceeds half a turn",
 )
