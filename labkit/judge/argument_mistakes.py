@@ -35,13 +35,14 @@ def _only(some: slice, x: Any) -> Any:
 # Angles.
 DEGREES = Change(
     "degrees",
-    "your code converts `{name}` to degrees, but sine and cosine take radians",
+    "your code converts `{name}` to degrees. Use `{name}` unchanged, because sine "
+    "and cosine take radians",
     np.rad2deg,
 )
 RADIANS_TWICE = Change(
     "radians-taken-for-degrees",
-    "your code converts `{name}` from degrees to radians, but `{name}` is already in "
-    "radians",
+    "your code converts `{name}` from degrees to radians. Use `{name}` unchanged, "
+    "because it is already in radians",
     np.deg2rad,
 )
 INTO_COS = DEGREES.called("degrees-into-cos")
@@ -50,8 +51,8 @@ OF_AN_ANGLE = (
     RADIANS_TWICE,
     Change(
         "half-angle",
-        "your code rotates by half of `{name}`. A quaternion contains half the "
-        "rotation angle, but a rotation matrix contains the full rotation angle",
+        "your code rotates by half of `{name}`. Use `{name}` itself, because only a "
+        "quaternion contains half the rotation angle",
         lambda x: x / 2,
     ),
     Change(

@@ -97,8 +97,8 @@ def stops_with(reply: Reply, often: str = "") -> str:
     why = f" {ONLY_IN_MAIN}" if reply.kind == "ModuleNotFoundError" else ""
     if reply.kind == "EOFError":
         why = (
-            " Does it call input()? The checker provides no input, so use the "
-            "arguments."
+            " Does your function call input()? The checker provides no input, so use "
+            "the arguments."
         )
     return f"Your function stops with {text}{where}{often}.{why}"
 

@@ -46,7 +46,7 @@ def unfinished(source: str, function: str) -> str:
             "your function. Delete this line."
         )
     if body and all(isinstance(node, ast.Pass) for node in body):
-        return "Its body is `pass`, which does nothing: write what it should return."
+        return "The body of your function is `pass`. Return the result instead."
     return ""
 
 

@@ -79,8 +79,8 @@ for order in ("zxXZ", "XzxZ", "XzZx"):
 @row.wrongs
 def _(alpha, a, d, theta):
     """both-turns-backwards: both of your rotations are in the wrong direction
-    radians-taken-for-degrees: your code converts both angles from degrees to radians,
-      but both angles are already in radians
+    radians-taken-for-degrees: your code converts both angles from degrees to radians.
+      Use both angles unchanged, because they are already in radians
     alpha-forgotten: your code does not use the argument `alpha`
     theta-forgotten: your code does not use the argument `theta`
     """

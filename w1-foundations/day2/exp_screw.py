@@ -70,8 +70,8 @@ def travelled(S, theta, one, first, second):
 
 @row.wrongs(hidden={"theta-wrapped": "the lab's angles are between -pi and pi"})
 def _(S, theta):
-    """twist-order: your code reads the halves of the screw as (v; omega), but omega
-      comes first
+    """twist-order: your code reads the halves of the screw as (v; omega). The half
+      omega should come first
     hinge-at-the-origin-forgotten: your code returns the identity matrix for a screw
       with v = 0. Such a screw represents a rotation about a line through the origin
     turns-backwards: your code computes the motion for -theta, which has the opposite

@@ -26,7 +26,7 @@ def _(w):
       across the diagonal should have opposite signs
     outer-product: your code returns the outer product of the vector with itself. Use
       the skew-symmetric matrix of the vector instead
-    on-the-diagonal: your code puts the vector on the diagonal, but all diagonal entries
+    on-the-diagonal: your code puts the vector on the diagonal. All diagonal entries
       should be 0
     """
     x, y, z = w

@@ -27,7 +27,7 @@ def _(rng):
 @row.wrongs
 def _(M, qd, masses, coms_world, g):
     """speed-squared-too-early: your code squares qd before the product with M. The
-      kinetic energy should be qd^T M qd / 2, with qd on both sides of M
+      kinetic energy should contain qd on both sides of M, as in qd^T M qd
     every-mass-everywhere: your code multiplies every link's height by the mass of the
       whole arm. Use the mass of each link instead
     distance-for-height: your potential energy uses the distance of each centre of mass

@@ -80,9 +80,9 @@ def _(T_links, masses, coms, inertias):
 def _(T_links, masses, coms, inertias):
     """left-in-link-axes: your code does not use T_links, so each matrix is expressed in
       its link frame. Transform each matrix to the world frame
-    adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. The matrix G maps a twist
-      to a momentum, so the factor to the right of G should map a twist from the world
-      frame to the link frame
+    adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. The factor to the right of
+      G should map a twist from the world frame to the link frame. The factor to the
+      left of G should be its transpose
     origin-for-com: your code places the mass at the link's origin. Place the mass at
       the centre of mass
     poses-multiplied: your code multiplies the poses along the arm. Use each pose

@@ -54,8 +54,9 @@ def _(m, c, I):
 
 @row.wrongs
 def _(m, c, I):
-    """about-the-centre-of-mass: your code does not use c, so the matrix is about the
-      centre of mass. The matrix about the origin contains c in three of its four blocks
+    """about-the-centre-of-mass: your code does not use c, so the result is the inertia
+      about the centre of mass. The inertia about the origin contains c in three of its
+      four blocks
     corners-alike: your two off-diagonal blocks are equal. The matrix is symmetric, so
       one block should be the transpose of the other
     corners-alike 2: your two off-diagonal blocks are equal. The matrix is symmetric, so

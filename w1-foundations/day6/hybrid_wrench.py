@@ -46,8 +46,7 @@ def _(e, V_err, K, D, force):
       The other five errors also produce a spring force along z, so remove the whole
       last entry of K e
     column-in-place-of-row: your code sets the error along z to 0, which removes the
-      last column of K. Remove the spring force along z instead, which is the product of
-      the last row of K and e
+      last column of K. Remove the spring force along z instead, which is K[5] @ e
     """
     spring, damper = K @ e, D @ V_err
     both = spring + damper

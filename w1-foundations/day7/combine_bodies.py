@@ -44,18 +44,19 @@ def whole(m1, c1, I1, m2, c2, I2, c, theorem=parallel_axes):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """no-parallel-axes: your code adds the two inertias unchanged. Each inertia is
-      about its own centre of mass, so move both inertias to the common centre first
-    about-the-origin: your inertia is about the origin of the frame. The inertia should
-      be about the common centre of mass
+    """no-parallel-axes: your code adds the two inertias unchanged. Move both inertias
+      to the common centre of mass first, because each inertia belongs to its own centre
+      of mass
+    about-the-origin: your code returns the inertia about the origin of the frame.
+      Return the inertia about the common centre of mass instead
     only-the-second-moved: your code moves only the second inertia to the common centre
       of mass. The first body's centre of mass also differs from the common centre, so
       move both inertias
     only-the-first-moved: your code moves only the first inertia to the common centre of
       mass. The second body's centre of mass also differs from the common centre, so
       move both inertias
-    about-the-first-centre: your inertia is about the first body's centre of mass. The
-      inertia should be about the common centre of mass
+    about-the-first-centre: your code returns the inertia about the first body's centre
+      of mass. Return the inertia about the common centre of mass instead
     distance-of-the-two: your parallel-axis theorem uses the distance between the two
       centres of mass. Use the distance of each centre of mass from the common centre
     mass-not-in-the-theorem: your code omits the mass of the body in the parallel-axis

@@ -62,8 +62,9 @@ def _(J_site, R_site, extra, g):
       wrenches. Fit the torques themselves, because they are the measured quantities
     cut-too-high: your code omits small singular values. Keep these values, because they
       determine a part of m c if the poses differ only slightly
-    solutions-averaged: your code solves each pose alone and averages the solutions. One
-      pose does not determine all four parameters, so stack the rows of all poses
+    solutions-averaged: your code solves each pose separately and averages the
+      solutions. One pose does not determine all four parameters, so stack the rows of
+      all poses
     weight-for-mass: your first result is the weight in newtons. The column for m should
       contain g itself, not its unit vector
     centre-for-first-moment: your last three results are the centre of mass c. Return

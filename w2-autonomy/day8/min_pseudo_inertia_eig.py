@@ -88,9 +88,9 @@ for slug, says, code in (
                           "triangle",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
-    ("about-the-centre", "your code first moves I to the centre of mass. The "
-                         "pseudo-inertia is about the origin, as I is, so use I "
-                         "unchanged",
+    ("about-the-centre", "your code first moves I to the centre of mass. Use I "
+                         "unchanged, because the pseudo-inertia also refers to the "
+                         "origin",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
     ("of-the-inertia", "your result is the smallest eigenvalue of the 6x6 spatial "
                        "inertia. Use the 4x4 pseudo-inertia [[S, h], [h^T, m]] with S "

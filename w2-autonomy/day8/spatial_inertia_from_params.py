@@ -52,9 +52,9 @@ def _(phi):
     """lower-half-zero: your matrix has the products Ixy, Ixz and Iyz only above the
       diagonal. Write them below the diagonal too, because I is symmetric
     inertia-about-the-centre: your code adds m [c] [c]^T to I. Use I unchanged, because
-      I in phi is about the origin and already includes this term
-    steiner-without-m: your code adds [h] [h]^T to I. Use I unchanged, because I in phi
-      is already about the origin
+      phi contains the inertia about the origin, which already includes this term
+    steiner-without-m: your code adds [h] [h]^T to I. Use I unchanged, because phi
+      already contains the inertia about the origin
     corner-not-transposed: both of your off-diagonal blocks are [h]. The lower left
       block should be [h]^T
     corner-negated: both of your off-diagonal blocks are [h]^T. The upper right block
