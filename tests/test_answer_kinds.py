@@ -246,7 +246,7 @@ class TestATuple:
             (
                 lambda i, point, free: (i, (-point, free)),
                 "all-signs",
-                "Every sign of your result is wrong.",
+                "Every entry of your result has the wrong sign.",
             ),
             (
                 lambda i, point, free: (float(i), (point, free)),
@@ -328,7 +328,11 @@ class TestNone:
                 "none-or-not",
                 "Your function returns None for 1 input with an answer",
             ),
-            (lambda p, x: None if x < 0 else -x * p, "all-signs", "Every sign"),
+            (
+                lambda p, x: None if x < 0 else -x * p,
+                "all-signs",
+                "Every entry of your result has the wrong sign",
+            ),
             (lambda p, x: None if x < 0 else p + x**3, "off", "off by up to"),
         ],
     )

@@ -69,6 +69,6 @@ def test_the_first_wrong_prefix_is_named():
     assert first_wrong(names, right, right) == ""
     assert "already" in first_wrong(names, [wrong, wrong, wrong], right)
     says = first_wrong(names, [right[0], right[1], wrong], right)
-    assert "right up to b" in says
+    assert "correct up to b" in says
     assert "c is the first" in says
     assert first_wrong(names, [None, right[1], wrong], right) == ""

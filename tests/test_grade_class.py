@@ -211,7 +211,7 @@ class TestTheClass:
         work = graded.clones / name / WEEK / "work" / DAY.script
         tasks = run("scripts/check_day.py", "--file", work).stdout.split("\n\n")[1]
         text = (graded.out / "feedback" / f"{name}.txt").read_text("utf-8")
-        assert "the translation has the wrong sign" in tasks
+        assert "your translation has the wrong sign" in tasks
         assert set(tasks.splitlines()) <= set(text.splitlines())
         assert "- call: inverse(T)" in text  # what it takes to appeal
         assert text.startswith(name)

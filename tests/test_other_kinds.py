@@ -247,7 +247,7 @@ def test_pixels_of_several_sizes_may_be_shifted_too():
         (lambda p: p + 0.5, "shifted", "off by the same (0.5, 0.5)"),
         (lambda p: p[..., ::-1], "row-first", "Your code puts the row first"),
         (lambda p: 2.0 * p, "one-factor-off", "2 times"),
-        (np.trunc, "whole-numbers", "truncated to whole numbers"),
+        (np.trunc, "whole-numbers", "truncates the result to whole numbers"),
     ],
 )
 def test_pixels_are_told_what_happened_to_them(change, slug, says):

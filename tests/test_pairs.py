@@ -110,8 +110,8 @@ def test_of_a_pose_one_mistake_is_in_R_and_the_other_in_t():
         return right(1, "make_T")(right(1, "quat_to_R")(quat).T, -pos)
 
     says = told(1, "1.5", link_T=link_T)
-    assert "R is transposed" in says
-    assert "the translation has the wrong sign" in says
+    assert "rotation matrix T[:3, :3] is transposed" in says
+    assert "your translation has the wrong sign" in says
 
 
 def test_blocks_of_columns_in_another_order_are_named_by_what_they_are():

@@ -95,7 +95,10 @@ def test_a_file_that_can_do_without_a_package_still_does():
 @pytest.mark.kit
 def test_what_asks_for_input_and_what_returns_none_is_told_what_to_do(check):
     asks = SOURCE + "\n\ndef Rz(theta):\n    return float(input('angle? '))\n"
-    assert "Does it call input()? Nobody types" in check(asks)["1.2"].message
+    assert (
+        "Does your function call input()? The checker provides no input"
+        in check(asks)["1.2"].message
+    )
     nothing = (
         "\n\n_R = Rz\ndef Rz(theta):\n    return _R(theta) if theta > 0 else None\n"
     )

@@ -46,23 +46,24 @@ def _mistakes(text: str, redo: Mapping[str, Change]) -> list[Mistake]:
 
 GENERAL = _mistakes(
     """
-    all-signs: every sign of your result is wrong
-    whole-numbers: your values are truncated to whole numbers, because your array has an
-      integer dtype. Create an array of floats instead
+    all-signs: every entry of your result has the wrong sign
+    whole-numbers: your code truncates the result to whole numbers, because your array
+      has an integer dtype. Create an array of floats instead
     transposed: your matrix is transposed
-    reshaped: your code reshapes the array instead of transposing it. Only .T turns rows
-      into columns
+    reshaped: your code reshapes the array instead of transposing it. Use .T, which
+      exchanges rows and columns
     rows-swapped: your rows are in the order (v; omega). The rows of omega should come
       first
-    inverse: your result is the inverse of the covariance, the information matrix.
-      Return the covariance itself
-    sigma-for-variance: your entries are standard deviations, but a covariance contains
-      their squares
-    halves-swapped: your two halves are swapped. The first should be {halves[0]}, the
-      second {halves[1]}
-    blocks-swapped: your blocks are in the order (v; omega), but omega comes first
+    inverse: your result is the information matrix, which is the inverse of the
+      covariance. Return the covariance itself
+    sigma-for-variance: your code returns the square root of each entry of the
+      covariance. Return the entries themselves, which are variances and covariances
+    halves-swapped: the two halves of your result are swapped. The first half should be
+      {halves[0]}, and the second half should be {halves[1]}
+    blocks-swapped: your blocks are in the order (v; omega). The block of omega should
+      come first
     counted-from-one: your index is counted from 1 instead of 0
-    one-too-small: your index is one too small
+    one-too-small: your index is too small by 1
     inverted: your code swaps True and False
     row-first: your code puts the row first. A pixel is (x, y), so the column comes
       first
@@ -95,8 +96,8 @@ OF_A_ROTATION = [
     *_mistakes(
         """
         R-transposed: your matrix is transposed, so it rotates in the opposite direction
-        left-handed: your third axis is reversed, so the frame is left-handed (det R =
-          -1)
+        left-handed: the third column of your rotation matrix has the wrong sign, so the
+          frame is left-handed (det R = -1)
         all-signs: every entry of your matrix has the wrong sign
         """,
         {
@@ -109,20 +110,22 @@ OF_A_ROTATION = [
 ]
 _OF_A_POSE = _mistakes(
     """
-    R-transposed: your translation is correct, but R is transposed, so T[:3, :3]
-      {wrong_way}
-    inverse-returned: your result is the inverse, so the matrix {wrong_way}
+    R-transposed: your translation is correct, but your rotation matrix T[:3, :3] is
+      transposed, so it {wrong_way}
+    inverse-returned: your result is the inverse of the correct pose, so it {wrong_way}
     T-transposed: your whole 4x4 matrix is transposed, so its bottom row is not (0, 0,
       0, 1)
     t-in-last-row: your translation is in the last row instead of the last column
     corner-zero: your bottom row is (0, 0, 0, 0) instead of (0, 0, 0, 1)
     ones-below: your bottom row is (1, 1, 1, 1) instead of (0, 0, 0, 1)
-    t-lost: your rotation is correct, but the translation is missing
-    R-lost: your translation is correct, but the rotation is missing, because your R is
-      the identity matrix
-    t-negated: your rotation is correct, but the translation has the wrong sign
-    left-handed: your third axis is reversed, so the frame is left-handed (det R = -1)
-    millimetres: your rotation is correct, but the translation is in millimetres
+    t-lost: your rotation is correct, but your code omits the translation
+    R-lost: your translation is correct, but your rotation matrix is always the identity
+      matrix
+    t-negated: your rotation is correct, but your translation has the wrong sign
+    left-handed: the third column of your rotation matrix has the wrong sign, so the
+      frame is left-handed (det R = -1)
+    millimetres: your rotation is correct, but your translation is in millimetres. It
+      should be in metres
     """,
     {
         "R-transposed": _parts(R=np.matrix_transpose),

@@ -35,12 +35,14 @@ def _only(some: slice, x: Any) -> Any:
 # Angles.
 DEGREES = Change(
     "degrees",
-    "your code converts `{name}` to degrees, but sine and cosine take radians",
+    "your code converts `{name}` to degrees. Use `{name}` unchanged, because sine "
+    "and cosine take radians",
     np.rad2deg,
 )
 RADIANS_TWICE = Change(
     "radians-taken-for-degrees",
-    "your code converts `{name}` from degrees, but `{name}` is already in radians",
+    "your code converts `{name}` from degrees to radians. Use `{name}` unchanged, "
+    "because it is already in radians",
     np.deg2rad,
 )
 INTO_COS = DEGREES.called("degrees-into-cos")
@@ -49,8 +51,8 @@ OF_AN_ANGLE = (
     RADIANS_TWICE,
     Change(
         "half-angle",
-        "your code rotates by half of `{name}`. A quaternion contains the half angle, "
-        "but a rotation matrix contains the whole angle",
+        "your code rotates by half of `{name}`. Use `{name}` itself, because only a "
+        "quaternion contains half the rotation angle",
         lambda x: x / 2,
     ),
     Change(
@@ -66,26 +68,27 @@ NEGATED = Change(
 )
 BACKWARDS = Change(
     "all-backwards",
-    "every joint in your code rotates in the opposite direction, by -{name}",
+    "your code rotates every joint in the opposite direction, by -{name}",
     np.negative,
 )
 
 # One entry for another, as an index or a loop does it.
 LEFT_OUT = Change(
     "joints-left-out",
-    "no joint moves in your code, so the result is always the pose at `{name}` = 0",
+    "your code does not rotate any joint, so the result is always the pose at "
+    "`{name}` = 0",
     np.zeros_like,
 )
 FIRST_FOR_ALL = Change(
     "first-angle-for-all",
-    "every joint in your code uses `{name}[0]`, but each joint has its own entry in "
+    "your code uses `{name}[0]` for every joint, but each joint has its own entry in "
     "`{name}`",
     lambda x: np.repeat(x[:1], len(x), axis=0),
 )
 ONE_OFF = Change(
     "off-by-one-joint",
-    "every joint in your code uses its neighbour's entry, because the index into "
-    "`{name}` is off by one",
+    "your index into `{name}` is off by one, so your code uses the entry of the "
+    "previous joint for each joint",
     partial(np.roll, shift=1),
 )
 OF_ALL_JOINTS = (
@@ -95,26 +98,23 @@ OF_ALL_JOINTS = (
     DEGREES,
     Change(
         "last-joint-missing",
-        "the last joint has no effect in your code, as if the loop ended one joint "
-        "early",
+        "your code does not move the last joint. Does your loop end one joint early?",
         partial(_only, slice(-1)),
     ),
     Change(
         "first-joint-missing",
-        "the first joint has no effect in your code, as if the loop started one joint "
-        "late",
+        "your code does not move the first joint. Does your loop start one joint late?",
         partial(_only, slice(1, None)),
     ),
     Change(
         "first-joint-only",
-        "only the first joint has an effect in your code, as if `return` were inside "
-        "the loop",
+        "your code moves only the first joint. Is `return` inside the loop?",
         partial(_only, slice(1)),
     ),
     Change(
         "last-joint-only",
-        "only the last joint has an effect in your code, as if the loop overwrote the "
-        "others",
+        "your code moves only the last joint. Does your loop overwrite the motion of "
+        "the other joints?",
         partial(_only, slice(-1, None)),
     ),
     ONE_OFF,
@@ -123,6 +123,6 @@ OF_ALL_JOINTS = (
 # Order within it.
 HALVES_SWAPPED = Change(
     "halves-swapped",
-    "your code swaps the halves of `{name}`. In `{name}`, the angular half comes first",
+    "your code swaps the two halves of `{name}`. The angular half comes first",
     partial(np.roll, shift=3, axis=0),
 )

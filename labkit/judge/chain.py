@@ -20,7 +20,7 @@ from labkit.judge.rigid_kinds import Pose
 from robo47.checks import Array
 
 STEADY = 1e-5  # how far a constant may wander: a student's float32
-ALONE = "Without this mistake, the error is 0."
+ALONE = "Without this mistake, the error would be 0."
 NEAR = 1e-4
 
 
@@ -102,8 +102,8 @@ def first_wrong(
     if k == 0:
         return f"The result is already wrong for the path that ends in {names[0]}."
     return (
-        f"For shorter paths, the result is right up to {names[k - 1]}. The step to "
-        f"{names[k]} is the first wrong step."
+        f"For shorter paths, the result is correct up to {names[k - 1]}. The "
+        f"transform to {names[k]} is the first wrong one."
     )
 
 

@@ -45,11 +45,7 @@ def by_results(m: Matcher) -> Finding | None:
         return None
     says = [
         f"{capitalised(kinds[j].called or f'result {j + 1}')}: "
-        + (
-            f"{told[j].says.rstrip('?')}."
-            if j in told
-            else "this result is wrong, too."
-        )
+        + (as_sentence(told[j].says) if j in told else "this result is wrong, too.")
         for j in sorted(wrong, key=lambda j: j not in told)
     ]
     slug = "+".join(dict.fromkeys(one.slug for one in told.values()))
@@ -95,9 +91,14 @@ def in_some_calls(m: Matcher) -> Finding | None:
     rest += "one" if others == 1 else str(others)
     says = (
         f"One mistake explains {n} of your {len(wrong)} wrong answers: "
-        f"{one.says.rstrip('?')}. {rest}."
+        f"{as_sentence(one.says)} {rest}."
     )
     return Finding(f"{one.slug}+other", says)
+
+
+def as_sentence(says: str) -> str:
+    """Return a clause with its full stop; a question keeps its mark."""
+    return says if says.endswith("?") else f"{says}."
 
 
 def _differ(S: Parts, which: Any) -> bool:

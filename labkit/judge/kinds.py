@@ -164,7 +164,9 @@ class Kind:
     def why_shape(self, got: tuple[int, ...]) -> str:
         """Return what a wrong shape is likely to come from, or ""."""
         thicker = got in ((*self.shape, 1), (1, *self.shape)) and not self.misfits
-        return "it has one axis too many" if thicker else self.misfits.get(got, "")
+        return (
+            "your array has one axis too many" if thicker else self.misfits.get(got, "")
+        )
 
     def general(self) -> Sequence[Mistake]:
         """Return mistakes made with a finished answer of this kind."""

@@ -137,18 +137,18 @@ class Jacobian(Matrix):
         wrong = gap(S, T).max(axis=0) > RIGHT * self.scale
         bad = np.flatnonzero(wrong.any(axis=0))
         halves = np.flatnonzero(wrong.reshape(2, -1).any(axis=1))
-        where = f" in its {('omega', 'v')[halves[0]]} rows" if len(halves) == 1 else ""
+        half = ("omega", "v")[halves[0]] if len(halves) == 1 else ""
         if len(bad) == 1:
-            says = f"Every column is right except joint {bad[0] + 1}'s"
+            says = f"Every column is right except the column of joint {bad[0] + 1}."
         elif bad[0] > 0 and len(bad) == self.shape[1] - bad[0]:
-            says = (
-                f"The columns are right up to joint {bad[0]}, and wrong from there on"
-            )
+            says = f"The columns are right up to joint {bad[0]}. All later columns are "
+            says += "wrong."
         else:
-            says = "Half of the matrix is right" if where else "The matrix is wrong"
-        return Finding(
-            "columns-off", f"{says}: off by up to {self.apart(S, T)}{where}."
-        )
+            says = "All columns are wrong." if len(bad) == self.shape[1] else ""
+        if half:
+            says += f" Only the {half} rows are wrong."
+        says += f" The largest error is {self.apart(S, T)}."
+        return Finding("columns-off", says.strip())
 
 
 @dataclass(frozen=True)

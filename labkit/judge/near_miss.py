@@ -130,8 +130,9 @@ def one_rule(S: Array, T: Array, wrong: Array) -> str:
     off = S - T
     if np.abs(off - off[0]).max() <= near and np.ptp(T, axis=0).max() > near:
         return (
-            f" The error is the same in every call, {np.abs(off).max():.3g} in one "
-            "entry. Is a constant term missing, or is there one too many?"
+            " The error is the same in every call. Its largest entry is "
+            f"{np.abs(off).max():.3g}. Is a constant term missing, or is there one too "
+            "many?"
         )
     limit = float(np.abs(S).max())
     cut = np.abs(S - np.clip(T, -limit, limit)).max() <= near

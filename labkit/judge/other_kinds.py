@@ -72,9 +72,9 @@ class Points(Kind):
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         count = self.shape[0]
         return {
-            (count, 4): "leave the fourth entry of each point out",
-            (count, 4, 4): "only the translations are asked for",
-            (count, 3, 1): "columns of shape (3, 1) are not plain vectors",
+            (count, 4): "omit the fourth entry of each point",
+            (count, 4, 4): "return only the translations",
+            (count, 3, 1): "return vectors of shape (3,), not columns of shape (3, 1)",
         }.get(got, "")
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
@@ -91,10 +91,10 @@ class Points(Kind):
             says = f"The {self.names[right]} is right, but the {off} is off by up to"
             return Finding(f"{off}-off", f"{says} {words[wrong]}.")
         each = ", ".join(
-            f"{mm} the {name}" for mm, name in zip(words, self.names, strict=False)
+            f"{mm} for the {name}" for mm, name in zip(words, self.names, strict=False)
         )
         every = "Both" if len(words) == 2 else "All"
-        return Finding("both-off", f"{every} are wrong: off by up to {each}.")
+        return Finding("both-off", f"{every} are wrong, by up to {each}.")
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
         pairs = zip(self.names, self._off(S, T), strict=False)

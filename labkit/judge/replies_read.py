@@ -64,7 +64,7 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
         case "BdbQuit":
             slug = "breakpoint"
             says = f"Your function stops in the debugger (line {reply.line}): "
-            says += "take breakpoint() out."
+            says += "delete the call breakpoint()."
         case "RefusedError":
             return refusal(reply.refused[0] if reply.refused else "", reply.line)
         case "waits":
@@ -96,7 +96,10 @@ def stops_with(reply: Reply, often: str = "") -> str:
     text = f"{reply.kind}: {reply.error}".rstrip().removesuffix(":")
     why = f" {ONLY_IN_MAIN}" if reply.kind == "ModuleNotFoundError" else ""
     if reply.kind == "EOFError":
-        why = " Does it call input()? Nobody types during a check: use the arguments."
+        why = (
+            " Does your function call input()? The checker provides no input, so use "
+            "the arguments."
+        )
     return f"Your function stops with {text}{where}{often}.{why}"
 
 
@@ -245,8 +248,8 @@ def kept_state(asked: Asked, source: str = "") -> Finding | None:
         return Finding(
             "draws-itself",
             "The same input gave two different answers, because the function draws "
-            "random numbers itself. A random number is an argument here, so that a run "
-            "can be repeated: draw it in main(), and pass it.",
+            "random numbers itself. Draw the random numbers in main() and pass them "
+            "as an argument, so that a run can be repeated.",
         )
     return Finding(
         "kept-between-calls",
@@ -275,8 +278,9 @@ def shared_memory(replies: Sequence[Reply], copies: bool = True) -> Finding | No
     if shared and copies:
         return Finding(
             "shares-its-argument",
-            f"Its answer is (a part of) its argument {shared[0]} itself, so changing "
-            f"one changes the other; return a copy: {shared[0]}.copy().",
+            f"Your function returns its argument {shared[0]} itself or a part of it, "
+            "so a change of one also changes the other. Return a copy: "
+            f"{shared[0]}.copy().",
         )
     return None
 

@@ -31,8 +31,8 @@ class Rotation(Kind):
     shape: tuple[int, ...] = (3, 3)
     expected = "a 3x3 matrix"
     misfits: ClassVar = {
-        (2, 2): "it is a rotation in space, so z is there too",
-        (4, 4): "only the rotation is asked for",
+        (2, 2): "a rotation in space also has a row and a column for z",
+        (4, 4): "return only the rotation",
     }
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
@@ -65,7 +65,7 @@ class Pose(Kind):
     expected = "a 4x4 matrix"
     misfits: ClassVar = {
         (3, 4): "the bottom row (0, 0, 0, 1) is missing",
-        (3, 3): "it is only the rotation",
+        (3, 3): "your array is only the rotation",
     }
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
@@ -91,7 +91,7 @@ class Pose(Kind):
             return Finding("bottom-row", f"{says}pose.")
         t_off = say_mm(millimetres(t, t_true))
         if difference(R, R_true).max() <= RIGHT and t_off != "0":
-            says = "R is right everywhere, but the translation is off by up to"
+            says = "R is right in every call, but the translation is off by up to"
             return Finding("translation-off", f"{says} {t_off}.")
         slug, message = rotation_wrong(R, R_true)
         if t_off == "0":
@@ -118,7 +118,7 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
         size = "" if worst == "1" else f"; det R is {worst}, not 1"
         return Finding(
             "not-orthonormal",
-            "R is not a rotation: its columns are not unit vectors at right angles. "
+            "R is not a rotation matrix, because its columns are not orthonormal. "
             f"(R R^T differs from the identity matrix by {off:.2g}{size}.)",
         )
     X = np.abs(T.mT @ S)
@@ -131,8 +131,7 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
     if mirrored := np.sum(np.linalg.det(S) < 0.0):
         return Finding(
             "left-handed",
-            f"R is a left-handed frame, a mirror image, for {mirrored} of {len(S)} "
-            "inputs. (det R is -1.)",
+            f"R is a reflection (det R = -1) in {mirrored} of {len(S)} calls.",
         )
     off_by = degrees(S, T)
     often = " in every call" if np.ptp(off_by) < 1e-3 else ""

@@ -408,10 +408,10 @@ class Row:
     def _of_any_size(self) -> HeldOut:
         return HeldOut(
             ANY_SIZE,
-            "Your function is correct for ordinary inputs, but it is wrong for inputs "
-            "that are very small, very large or exactly at a limit. The lab or a later "
-            "task uses such inputs. Does a guard, a clamp or a tolerance in your code "
-            "change these inputs?",
+            "Your function is correct for ordinary inputs, but it is wrong for "
+            "inputs that are very small, very large or exactly at a limit. The lab "
+            "or a later task uses such inputs. Does a guard, a clamp or a tolerance "
+            "in your code affect the result for these inputs?",
             lambda rng: [tuple(call) for draw in self._spans for call in draw(rng)],
             relative=True,
         )

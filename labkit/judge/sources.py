@@ -149,7 +149,7 @@ def _changed_answer(m: Matcher, i: int | None, says: str) -> Finding:
     called = m.ask.kinds[i].called if i is not None and len(m.T) > 1 else ""
     what = f"{called} correctly" if called else "the correct result"
     how = m.with_error(f"{REDONE} {evidence(True)}")
-    says = f"Your code computes {what}, but then it {says}. {how}"
+    says = f"Your code computes {what} and then {says}. {how}"
     return Finding("answer-changed", says)
 
 

@@ -42,11 +42,11 @@ def unfinished(source: str, function: str) -> str:
     gaps = [node for node in body if _is_gap(node)]
     if gaps and len(gaps) < len(body):
         return (
-            f"Your code is there, but line {gaps[0].lineno}, "
-            "`raise NotImplementedError(...)`, still stops it: delete that line."
+            f"Line {gaps[0].lineno}, `raise NotImplementedError(...)`, still stops "
+            "your function. Delete this line."
         )
     if body and all(isinstance(node, ast.Pass) for node in body):
-        return "Its body is `pass`, which does nothing: write what it should return."
+        return "The body of your function is `pass`. Return the result instead."
     return ""
 
 

@@ -40,14 +40,15 @@ def _(theta):
     sin-and-cos-swapped: your code swaps the sine and the cosine, so at theta = 0 the
       matrix already rotates by 90 degrees
     minus-missing: neither of your sines has a minus sign, so the matrix is not
-      orthonormal
-    minus-twice: both of your sines have a minus sign, so the matrix is not orthonormal
+      orthonormal. Exactly one of the two sines should have a minus sign
+    minus-twice: both of your sines have a minus sign, so the matrix is not orthonormal.
+      Exactly one of the two sines should have a minus sign
     reflection: your minus sign is on a cosine instead of a sine, so the matrix is a
       reflection (det R = -1)
-    small-angle-formula: for small angles, your code replaces the sine with the angle
-      and the cosine with 1, which is only an approximation
+    small-angle-formula: your code replaces the sine with the angle and the cosine with
+      1 for small angles. Use the sine and the cosine for every angle
     z-lost: your last diagonal entry is 0, so the matrix sets the z component of every
-      point to 0
+      point to 0. This entry should be 1
     """
     c, s = np.cos(theta), np.sin(theta)
     return {
@@ -62,9 +63,9 @@ def _(theta):
 
 
 for axis, about in (("x", se3.Rx), ("y", se3.Ry)):
-    says = f"your code rotates about {axis} instead of z"
+    says = f"your code rotates about the {axis} axis instead of the z axis"
     row.wrong(f"turns-about-{axis}", says)(about)
-    says = f"your code rotates about -{axis} instead of z"
+    says = f"your code rotates about the -{axis} axis instead of the z axis"
     row.wrong(f"turns-about-{axis}", says)(lambda theta, about=about: about(-theta))
 
 

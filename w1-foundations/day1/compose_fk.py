@@ -40,7 +40,7 @@ def _prefixes(rng):
 
 
 row = Row(
-    Pose(wrong_way="maps the world to the end effector"),
+    Pose(wrong_way="maps world coordinates to end-effector coordinates"),
     truth=by_mujoco,
     near=NEAR,
     alike=[*places.ALIKE, {"stops-at-link7", "stops-early"}],
@@ -55,9 +55,9 @@ row = Row(
         ),
         HeldOut(
             "path-counted",
-            "Your pose is correct for `PATH` and its prefixes, but your function uses "
-            "only the number of pairs in `path`, so for `PATH[1:]` it returns the pose "
-            "of link7. Take the body and joint names from the argument `path`.",
+            "Your pose is correct for `PATH` and its prefixes, but your function "
+            "uses only the number of pairs in `path`. For `PATH[1:]`, it returns the "
+            "pose of link7. Take the body and joint names from the argument `path`.",
             on(PANDA, PATH[1:], count=2),
             mistaken=lambda model, q, path: fk(model, q, PATH[: len(path)]),
         ),

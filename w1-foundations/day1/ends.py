@@ -34,30 +34,31 @@ ALL = [*ENDS.items(), ("fingertip-for-the-end", HANDS_TIP)]
 
 
 def elsewhere(model, q, path=PATH):
-    """hand-for-attachment-site: your code returns the pose of `hand`, a body in another
-      model. This model ends at `attachment_site`, and the two frames differ by a
+    """hand-for-attachment-site: your code returns the pose of `hand`, which is a body
+      of another model. Use `attachment_site`, whose frame differs from `hand` by a
       rotation of 180 degrees about z
-    finger-for-the-end: your code returns the pose of a finger, but the chain ends at
-      the flange
+    finger-for-the-end: your code returns the pose of a finger. This Panda has no hand,
+      so the chain should end at the flange
     fingertip-for-the-end: your code returns the pose of the tool centre point between
-      the fingertips, but this Panda has no hand and ends at the flange
-    stops-at-link7: your chain stops at link7, but one more fixed transform leads from
-      link7 to the end effector
+      the fingertips. This Panda has no hand, so the chain should end at the flange
+    stops-at-link7: your chain stops at link7. Multiply by the fixed transform from
+      link7 to the end effector as well
     flange-not-turned: your position is correct, but your code omits the flange's
       rotation relative to link7
     flange-turned-backwards: your position is correct, but your code rotates the flange
-      in the wrong direction
+      in the wrong direction. Use the flange's quaternion in the file unchanged
     flange-turned-by-45: your position is correct, but your code rotates the flange by
-      45 degrees. The quaternion in the file has another angle
+      45 degrees. Use the rotation that the flange's quaternion in the file represents
     flange-not-moved: your rotation is correct, but your code omits the flange's offset
       from link7
-    flange-twice: your code applies the transform from link7 to the end effector twice
+    flange-twice: your code applies the transform from link7 to the end effector twice.
+      Apply it only once
     """
     T = fk(model, q, path)
     return {slug: T @ end for slug, end in ENDS.items()}
 
 
 def fingertip_for_the_end(model, q, path=PATH):
-    """your code returns the pose of the tool centre point between the fingertips, but
-    this Panda has no hand and ends at the flange"""
+    """your code returns the pose of the tool centre point between the fingertips. This
+    Panda has no hand, so the chain should end at the flange"""
     return fk(model, q, path) @ HANDS_TIP

@@ -23,8 +23,8 @@ row = Row(
     held_out=[
         HeldOut(
             "general-inverse",
-            "Your result is correct, but your code uses a general matrix inverse. The "
-            "task asks for a result from R and t alone. What is special about the "
+            "Your result is correct, but your code uses a general matrix inverse. "
+            "Compute the result from R and t alone. What is special about the "
             "columns of R?",
             _scaled,
             mistaken=np.linalg.inv,
@@ -44,22 +44,24 @@ def _(rng):
 @row.wrongs
 def _(T):
     """unchanged: your code returns T unchanged
-    T-transposed: your code transposes the whole 4x4 matrix. The transpose inverts R,
-      but it moves the translation to the last row
+    T-transposed: your code transposes the whole 4x4 matrix, which also moves the
+      translation to the last row. Transpose only R, and compute the translation
+      separately
     t-only-negated: your rotation is correct, but your translation is -t. The
       translation of the inverse is expressed in the rotated frame, so rotate -t into
       that frame
     t-turned-forwards: your rotation is correct, but your code multiplies -t by R.
       Multiply -t by the inverse of R
-    R-kept: your translation is correct, but your code does not invert R
-    R-kept-t-negated: your code keeps R and only negates t, which is correct only for a
-      pure translation
+    R-kept: your translation is correct, but your rotation is R instead of the inverse
+      of R
+    R-kept-t-negated: your code keeps R and only negates t. Use the inverse of R as the
+      rotation, and multiply -t by this inverse
     R-kept-t-turned-forwards: your code uses R instead of its inverse, both in the
       rotation and in the translation
-    all-signs: your code negates every entry, but the negative of a transform is not its
-      inverse
-    minus-R: your code only negates R and t. The matrix -R is a reflection (det = -1),
-      not the inverse of R
+    all-signs: your code negates every entry of T. Use the inverse of R as the rotation
+      instead, and compute the translation from this inverse and t
+    minus-R: your code only negates R and t, but -R is a reflection (det = -1). Use the
+      inverse of R as the rotation instead
     """
     R, t = split(T)
     return {
@@ -77,8 +79,8 @@ def _(T):
 
 @row.wrong
 def one_over_each_entry(T):
-    """your code replaces every entry with its reciprocal, but the inverse of a matrix
-    does not consist of reciprocals"""
+    """your code replaces every entry of T with its reciprocal. Compute the matrix
+    inverse instead, from the inverse of R and from t"""
     with np.errstate(divide="ignore"):
         return 1.0 / T
 

@@ -21,8 +21,8 @@ row.inputs(angles)
 
 @row.wrong
 def slides_along_z(q):
-    """your code translates the joint by q along z, but the Panda's joints rotate about
-    z"""
+    """your code translates the joint by q along z. The Panda's joints are revolute, so
+    rotate by q about z instead"""
     return pose(np.eye(3), np.array([0.0, 0.0, q]))
 
 
@@ -32,7 +32,7 @@ row.reached_by(
 )
 # A joint does not move its body, so what is done to t changes nothing.
 row.of_answer(
-    of_a_pose("maps the parent frame to the body frame"),
+    of_a_pose("maps parent coordinates to body coordinates"),
     but=("t-in-last-row", "t-lost", "t-negated", "millimetres"),
 )
 

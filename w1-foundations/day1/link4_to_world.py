@@ -11,7 +11,7 @@ TO_LINK4 = PATH[:5]
 AT_READY = "the lab asks in the ready configuration alone"
 
 row = Row(
-    Pose(wrong_way="maps the world to link4"),
+    Pose(wrong_way="maps world coordinates to link4 coordinates"),
     truth=lambda model, q: by_mujoco(model, q, TO_LINK4),
     near=NEAR,
     alike=[*places.ALIKE, {"whole-numbers", "t-lost"}],  # no step is of a metre

@@ -21,12 +21,13 @@ def _(rng):
 
 @row.wrongs(hidden={"type-of-R": "the lab's rotations hold no whole numbers alone"})
 def _(R, t):
-    """move-then-turn: your code multiplies t by R. A pose first rotates a point and
-      then adds t, so use t unchanged
-    t-turned-back: your code multiplies t by the transpose of R, but t is already
-      expressed in the frame to which T maps. Use t unchanged
+    """move-then-turn: your code multiplies t by R. Use t unchanged, because a pose
+      first rotates a point and then adds t
+    t-turned-back: your code multiplies t by the transpose of R. Use t unchanged,
+      because t is already expressed in the frame to which T maps
     type-of-R: your array has the data type of R. If R contains integers, as in
-      `np.eye(3, dtype=int)`, the fractional parts of t are lost
+      `np.eye(3, dtype=int)`, the array truncates t to whole numbers. Create an array of
+      floats instead
     """
     whole = np.array_equal(R, np.round(R))
     return {

@@ -31,8 +31,9 @@ from .quat_to_R import UNNORMALISED
 ALIKE = [BACKWARDS, {"joints-left-out", "R-lost"}]
 TYPED_IN = HeldOut(
     "typed-in",
-    "Your pose is correct for this Panda, but not for one with longer, rotated links. "
-    "Read every `pos` and `quat`, including the values of link0, from the given model.",
+    "Your pose is correct for this Panda, but not for a Panda with longer links and "
+    "a rotated link. Read every `pos` and `quat`, including the values of link0, "
+    "from the given model.",
     on(OTHER, count=2),
     of_close=False,  # `flange` says more of a nearly right one
 )
@@ -127,7 +128,9 @@ def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
         L @ L,
     )
     for mistake in link_T.row.ask.named:
-        says = f"In the transform of {name} alone, {mistake.says}"
+        says = (
+            f"Only the transform of {name} is wrong. In this transform, {mistake.says}"
+        )
         yield Finding(mistake.slug, says), mistake.redo(pos, quat)
 
 
@@ -135,17 +138,20 @@ def _other_joints(model, q: Array, joint: str) -> Iterator[tuple[Finding, Array]
     yield (
         Finding(
             "joint-skipped",
-            f"In your product, {joint} does not rotate: its angle has no effect",
+            f"Your code does not rotate {joint}, so the angle of this joint has no "
+            "effect",
         ),
         (np.eye(4)),
     )
     for _, other in PATH[1:-1]:
         if other != joint:
-            says = f"In your product, {joint} rotates by the angle of {other}"
+            says = f"Your code rotates {joint} by the angle of {other}"
             yield Finding("joint-fed-another", says), turn(model, q, other)
     angles = q[:, model.joint(joint).qposadr[0]]
     for mistake in joint_T.row.ask.named:
-        says = f"In the transform of {joint} alone, {mistake.says}"
+        says = (
+            f"Only the transform of {joint} is wrong. In this transform, {mistake.says}"
+        )
         yield Finding(mistake.slug, says), mistake.redo(angles)
 
 
@@ -153,7 +159,7 @@ def _wrong_angle(joint: str, X: Array) -> Finding | None:
     R = se3.Rz(np.arctan2(X[:, 1, 0], X[:, 0, 0]))
     if not matches(X, pose(R, np.zeros(3))):
         return None
-    says = f"In your product, {joint} rotates about its axis by the wrong angle"
+    says = f"Your code rotates {joint} about the correct axis, but by the wrong angle"
     return Finding("joint-angle-off", says)
 
 
@@ -197,6 +203,6 @@ def _both(first: Finding, second: Finding, case: Case) -> Finding:
     return Finding(
         f"{first.slug}+{second.slug}",
         f"{both_told(first.message, second.message)} "
-        f"{Pose().largest_error(case.S, case.T)} Without both mistakes, the error is "
-        f"0.",
+        f"{Pose().largest_error(case.S, case.T)} Without both mistakes, the error "
+        "would be 0.",
     )

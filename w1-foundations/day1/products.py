@@ -23,7 +23,7 @@ def in_order(model, q, path=PATH):
     joints-on-the-left: your code multiplies the joint transforms on the left and the
       link transforms on the right. Multiply both on the right
     multiplied-by-entries: your code multiplies the transforms entry by entry. Use the
-      matrix product
+      matrix product instead
     """
     pairs = steps(model, q, path)
     links, joints = zip(*pairs, strict=True)
@@ -46,21 +46,23 @@ def chain_reversed(model, q, path=PATH):
 
 def on_each_other(model, q, path=PATH):
     """last-step-in-the-world: your code adds the offset of `attachment` along the world
-      axes, but this offset is expressed in the frame of the previous body
+      axes. Rotate this offset first, because it is expressed in the frame of the
+      previous body
     last-step-on-the-left: your code multiplies the transform of `attachment` on the
       left, which moves the whole arm. Multiply this transform on the right
     local-taken-for-world: your code uses the `pos` and `quat` of `attachment` as its
-      pose in the world, but both are relative to the parent body
+      pose in the world. Both are relative to the parent body, so multiply the
+      transforms of the whole chain
     offsets-summed: your rotation is correct, but your code adds the offsets from the
-      file without rotating them. Each offset is expressed in the rotated frame of its
-      parent
+      file without rotating them. Rotate each offset first, because it is expressed in
+      the frame of its parent body
     point-with-w-0: your rotation is correct, but your code only rotates the offset of
-      `attachment` and omits the translation before this offset. A point has 1, not 0,
-      as its fourth coordinate
+      `attachment` and omits the translation before this offset. The fourth coordinate
+      of a point should be 1, not 0
     inertial-frames: your code uses `ipos` and `iquat`, which describe a body's inertial
-      frame. Use `pos` and `quat`, which describe the body frame
-    inertial-turns: your code uses `iquat`, the orientation of a body's inertial frame.
-      Use `quat`, the orientation of the body frame
+      frame. Use `pos` and `quat` instead, which describe the body frame
+    inertial-turns: your code uses `iquat`, which is the orientation of a body's
+      inertial frame. Use `quat` instead, which is the orientation of the body frame
     """
     before = fk(model, q, path[:-1])
     last = link(model, path[-1][0])

@@ -54,23 +54,23 @@ NOT_NORMALISED = (
     "rotation, and (1, 1, 0, 0), for example, has norm 1.41"
 )
 XYZW_AND_NOT_NORMALISED = (
-    "your code reads the quaternion as (x, y, z, w), although w comes first, and it "
-    "does not normalise the quaternion"
+    "your code reads the quaternion as (x, y, z, w) and does not normalise it. "
+    "MuJoCo uses the order (w, x, y, z)"
 )
 
 
 @row.wrongs(hidden={"short-ones-kept": "no quaternion there is short"})
 def _(quat):
-    """wxyz-read-as-xyzw: your code reads the quaternion as (x, y, z, w), but MuJoCo
-      uses the order (w, x, y, z)
+    """wxyz-read-as-xyzw: your code reads the quaternion as (x, y, z, w). Use MuJoCo's
+      order instead, which is (w, x, y, z)
     xyzw-rolled-wrongly: your code shifts the components in the wrong direction, so it
       reads the quaternion as (y, z, w, x). MuJoCo uses the order (w, x, y, z)
-    half-angle: your code rotates by half the angle. The component w is the cosine of
-      half the angle, not of the angle
+    half-angle: your code rotates by half the correct angle. The component w is the
+      cosine of half the rotation angle, not of the rotation angle itself
     short-ones-kept: your code normalises the quaternion only if its norm is above 1.
-      Quaternions with a smaller norm have to be normalised too
+      Normalise quaternions with a smaller norm too
     factor-two-missing: your code omits the factor 2 in front of the products of
-      components
+      quaternion components
     """
     unturned = np.array([1.0, 0.0, 0.0, 0.0])
     read = {

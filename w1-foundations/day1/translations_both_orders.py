@@ -48,8 +48,8 @@ row = Row(
     held_out=[
         HeldOut(
             "by-4x4-products",
-            "Your result is correct, but your code multiplies 4x4 matrices. The "
-            "docstring asks for a result from R and t alone. Which R acts on which t?",
+            "Your result is correct, but your code multiplies 4x4 matrices. Compute "
+            "the result from R and t alone. Which R acts on which t?",
             _odd_bottom_rows,
             mistaken=by_4x4,
             status="close",
@@ -60,27 +60,28 @@ row.inputs(_two_poses)
 
 # What goes wrong in one prediction, or in both.
 HALVES = {
-    "only-summed": "your code only adds the two translations, but the left factor also "
-    "rotates the translation of the right factor",
+    "only-summed": "your code only adds the two translations. First multiply the "
+    "translation of the right factor by the R of the left factor",
     "left-translation-lost": "your code omits the translation of the left factor",
     "right-translation-lost": "your code omits the translation of the right factor",
     "turned-backwards": "your code multiplies the right factor's translation by the "
-    "transpose of R. Use R itself",
+    "transpose of the left factor's R. Use this R itself",
     "wrong-vector-turned": "your code rotates the left factor's own translation "
     "instead of the right factor's translation",
     "wrong-rotation": "your code rotates the right factor's translation by the right "
-    "factor's R. Use the left factor's R",
+    "factor's R. Use the left factor's R instead",
     "both-turned": "your code rotates the translations of both factors. Do not rotate "
     "the translation of the left factor",
     "subtracted": "your code subtracts the left factor's translation instead of "
     "adding it",
     "summed-by-columns": "your code multiplies R and the right factor's translation "
-    "entry by entry (R * t) and sums the columns. Use R @ t",
-    "summed-by-entries": "your expression R * t multiplies entry by entry. Use R @ t",
-    "diagonal-only": "your code multiplies the right factor's translation only by the "
-    "diagonal of R. Use R @ t, which contains all entries of R",
-    "entries-of-4x4": "your code multiplies the two 4x4 matrices entry by entry "
-    "(A * B). Use the matrix product",
+    "entry by entry (R * t) and sums the columns. Use R @ t instead",
+    "summed-by-entries": "your expression R * t multiplies R and t entry by entry. "
+    "Use R @ t instead",
+    "diagonal-only": "your code multiplies the right factor's translation only by "
+    "the diagonal of R. Use R @ t instead, which contains all entries of R",
+    "entries-of-4x4": "your code multiplies the two 4x4 matrices entry by entry (A * "
+    "B). Use the matrix product instead",
 }
 
 
@@ -115,8 +116,14 @@ def _other_order(R_a, t_a, R_b, t_b):
     return right(R_b, t_b, R_a, t_a)
 
 
-for which, two in (("first", (_other_order, right)), ("second", (right, _other_order))):
-    says = f"your code computes the {which} translation with the two factors swapped"
+for which, product, two in (
+    ("first", "T_world_ee @ T_extra", (_other_order, right)),
+    ("second", "T_extra @ T_world_ee", (right, _other_order)),
+):
+    says = (
+        f"your code computes the {which} translation with the two factors swapped. The "
+        f"{which} translation belongs to {product}"
+    )
     row.wrong("same-order-twice", says)(both(*two))
 row.wrong(
     "orders-swapped",

@@ -24,10 +24,10 @@ def _(T):
     """block-top-right: your block [p] R is in the upper right, as for wrenches and for
       twists (v; omega). In this course omega comes first, so the block belongs in the
       lower left
-    no-lever-arm: your lower left block is 0, but v depends on omega if the origins of
-      the two frames differ
-    on-both-sides: both of your off-diagonal blocks are [p] R, but omega does not depend
-      on v, so the upper right block should be 0
+    no-lever-arm: your lower left block is 0. This block should be [p] R, because v
+      depends on omega if the origins of the two frames differ
+    on-both-sides: both of your off-diagonal blocks are [p] R. The upper right block
+      should be 0, because omega does not depend on v
     last-block-zero: your two lower blocks are [p] and 0. The lower blocks should be [p]
       R and R
     R-turned-back: your code transposes R in every block. Use R itself

@@ -12,7 +12,7 @@ from . import places
 from .arms import FAR, FRANKA
 
 row = Row(
-    Pose(wrong_way="maps the world to the flange"),
+    Pose(wrong_way="maps world coordinates to flange coordinates"),
     unnamed=places.unnamed_row,
     measured=places.measured,
 )
@@ -41,23 +41,23 @@ ONE_TABLE = "the lab has one table"
 
 @row.wrongs(hidden={"flange-typed-in": ONE_TABLE, "table-not-used": ONE_TABLE})
 def _(table, q):
-    """flange-missing: your product lacks the eighth row, so your code returns the pose
+    """flange-missing: your product omits the eighth row, so your code returns the pose
       of link7 instead of the flange pose
-    flange-turned: your code rotates the eighth row by the last joint's angle, but the
-      flange does not rotate relative to link7
-    theta-one-row-late: your code uses each angle one row too late. The first row
-      belongs to joint1, so its angle is q[0]
-    theta-one-row-early: your code uses each angle one row too early. The first row
-      belongs to joint1, so its angle is q[0]
+    flange-turned: your code rotates the eighth row by the last joint's angle. Use the
+      angle 0 for this row, because the flange does not rotate relative to link7
+    theta-one-row-late: your code uses each angle one row too late. The angle of the
+      first row should be q[0], because this row belongs to joint1
+    theta-one-row-early: your code uses each angle one row too early. The angle of the
+      first row should be q[0], because this row belongs to joint1
     product-reversed: your matrices are in the reverse order. The matrix of the link
       nearest to the base belongs on the left
     multiplied-by-entries: your code multiplies the link matrices entry by entry. Use
-      the matrix product
+      the matrix product instead
     last-link-only: your loop overwrites the product, so only the last row has an effect
     flange-typed-in: your code always uses Franka's eighth row. Use the last row of the
       argument `table`
     table-not-used: your code does not use the argument `table`, so the result is
-      correct only for Franka's table
+      correct only for Franka's table. Read all parameters from `table`
     """
     theta = [*q, 0.0]
     return {
@@ -79,8 +79,8 @@ row.of_argument("q", LEFT_OUT)
 for by in (1, -1):
     row.wrong(
         "alpha-of-the-neighbour",
-        "each row in your code uses the alpha of a neighbouring row. This table uses "
-        "Craig's convention, so use the alpha of the same row",
+        "your code uses the alpha of a neighbouring row for each row. Use the alpha "
+        "of the same row, because this table follows Craig's convention",
     )(lambda table, q, by=by: dh_fk(np.c_[np.roll(table[:, 0], by), table[:, 1:]], q))
 for names, order in (
     ("a, alpha, d", [1, 0, 2]),
@@ -91,7 +91,8 @@ for names, order in (
 ):
     row.wrong(
         "columns-mixed-up",
-        f"your code reads the columns as ({names}). The order is (alpha, a, d)",
+        f"your code reads the columns of the table as ({names}). The order is "
+        "(alpha, a, d)",
     )(lambda table, q, order=order: dh_fk(table[:, order], q))
 row.reached_by("dh_link", "in every row, ", but=["theta-forgotten"])
 

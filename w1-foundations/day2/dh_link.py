@@ -11,7 +11,11 @@ from robo47.screws import dh_link
 
 from .arms import FRANKA
 
-row = Row(Pose(wrong_way="maps the previous link to this one"))
+row = Row(
+    Pose(
+        wrong_way="maps the previous link's coordinates to the next link's coordinates"
+    )
+)
 
 
 @row.inputs
@@ -42,8 +46,8 @@ def in_order(order, alpha, a, d, theta):
 
 @row.wrongs
 def _(alpha, a, d, theta):
-    """standard-formula: your matrix follows the standard convention, Rz Tz Tx Rx, but
-      Franka's table follows Craig's convention, which rotates about x first
+    """standard-formula: your matrix follows the standard convention, Rz Tz Tx Rx.
+      Franka's table follows Craig's convention, so rotate about x first
     a-after-theta: your rotation is correct, but your translation by `a` comes after the
       rotation about z. The translation by `a` should come before this rotation
     d-along-the-old-z: your rotation is correct, but your translation by `d` comes
@@ -75,10 +79,10 @@ for order in ("zxXZ", "XzxZ", "XzZx"):
 @row.wrongs
 def _(alpha, a, d, theta):
     """both-turns-backwards: both of your rotations are in the wrong direction
-    radians-taken-for-degrees: your code converts both angles from degrees to radians,
-      but both angles are already in radians
-    alpha-forgotten: the argument `alpha` has no effect in your code
-    theta-forgotten: the argument `theta` has no effect in your code
+    radians-taken-for-degrees: your code converts both angles from degrees to radians.
+      Use both angles unchanged, because they are already in radians
+    alpha-forgotten: your code does not use the argument `alpha`
+    theta-forgotten: your code does not use the argument `theta`
     """
     instead = {
         "both-turns-backwards": (-alpha, a, d, -theta),

@@ -51,20 +51,20 @@ def _(axis, theta):
       orthonormal only to first order in theta
     sine-term-missing: your code omits the K term, so the rotations by theta and -theta
       are equal
-    identity-missing: your code omits the identity matrix, but a rotation by 0 should be
-      the identity matrix
-    cosine-for-one-minus-cosine: your factor of K^2 is the cosine, but this factor
-      should be 0 at theta = 0
-    one-minus-sine: your factor of K^2 is 1 minus the sine, but this factor should be 0
-      at theta = 0
+    identity-missing: your code omits the identity matrix. This term is needed because a
+      rotation by 0 is the identity matrix
+    cosine-for-one-minus-cosine: your factor of K^2 is cos(theta). The factor should be
+      1 - cos(theta), which is 0 at theta = 0
+    one-minus-sine: your factor of K^2 is 1 - sin(theta). The factor should be 1 -
+      cos(theta), which is 0 at theta = 0
     sin-and-cos-swapped: your code swaps the sine and the cosine, so the matrix is not
       the identity at theta = 0
     coefficients-swapped: your code swaps the factors of K and K^2. The factor of K
       should be sin(theta), and the factor of K^2 should be 1 - cos(theta)
     first-order-only: your series ends after the term theta K, so the matrix is accurate
-      only for small angles
+      only for small angles. Use the closed form with the sine and the cosine
     second-order-only: your series ends after the theta^2 term, so the matrix is
-      accurate only for small angles
+      accurate only for small angles. Use the closed form with the sine and the cosine
     cosine-before-identity: your code multiplies the identity matrix by cos(theta). This
       factor belongs to the formula with axis axis^T, not to the formula with K^2
     half-angle-not-squared: your factor of K^2 is 2 sin(theta / 2). The factor should be
@@ -91,14 +91,14 @@ def _(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """exp-by-entries: your code uses np.exp, which acts on each entry, but the matrix
-      exponential is a series of matrix products
+    """exp-by-entries: your code uses np.exp, which takes the exponential of each entry.
+      Use the matrix exponential instead, which is a series of matrix products
     bracket-of-a-dyad: your last term is (1 - cos(theta)) axis axis^T. With this term,
       the identity matrix needs the factor cos(theta)
     dyad-without-factor: your code omits the factor 1 - cos(theta) in front of axis
       axis^T, so the matrix is not the identity at theta = 0
-    dyad-missing: your code omits the term (1 - cos(theta)) axis axis^T, so your matrix
-      changes vectors along the axis
+    dyad-missing: your code omits the term (1 - cos(theta)) axis axis^T. This term is
+      needed because a rotation does not change vectors along the axis
     always-about-z: your code rotates about z for every axis. Use the argument `axis`
     """
     K = skew(axis)

@@ -70,14 +70,14 @@ def travelled(S, theta, one, first, second):
 
 @row.wrongs(hidden={"theta-wrapped": "the lab's angles are between -pi and pi"})
 def _(S, theta):
-    """twist-order: your code reads the halves of the screw as (v; omega), but omega
-      comes first
-    hinge-at-the-origin-forgotten: a screw with v = 0 causes no motion in your code, but
-      such a screw represents a rotation about a line through the origin
+    """twist-order: your code reads the halves of the screw as (v; omega). The half
+      omega should come first
+    hinge-at-the-origin-forgotten: your code returns the identity matrix for a screw
+      with v = 0. Such a screw represents a rotation about a line through the origin
     turns-backwards: your code computes the motion for -theta, which has the opposite
-      direction
-    theta-wrapped: your code wraps theta to [-pi, pi], but the translation along the
-      axis is not periodic
+      direction. Use theta itself
+    theta-wrapped: your code wraps theta to [-pi, pi]. Use theta unchanged, because the
+      translation along the axis is not periodic
     """
     motions = {
         "twist-order": (np.roll(S, 3), theta),
@@ -91,20 +91,23 @@ def _(S, theta):
 @row.wrongs
 def _(S, theta):
     """identity-for-theta: your rotation is correct, but the first term of your
-      translation is v. The translation should be 0 at theta = 0
+      translation is v. This term should be theta v, because the translation is 0 at
+      theta = 0
     sine-for-theta: your rotation is correct, but the first term of your translation is
-      sin(theta) v. For a pure translation, the translation should be theta v
-    exp-coefficients-swapped: your rotation is correct, but in the translation your code
-      swaps the factors of K and K^2
-    as-in-the-rotation: your rotation is correct, but your translation uses the factors
-      of the rotation, sin(theta) and 1 - cos(theta). Use the integrals of these two
-      factors from 0 to theta
+      sin(theta) v. This term should be theta v, as for a pure translation
+    exp-coefficients-swapped: your rotation is correct, but your code swaps the factors
+      of K and K^2 in the translation
+    as-in-the-rotation: your rotation is correct, but your translation uses sin(theta)
+      and 1 - cos(theta), which are the factors of the rotation. Use the integrals of
+      these two factors from 0 to theta
     travel-sign-of-K: your rotation is correct, but the K term of your translation has
       the wrong sign
     travel-sign-of-KK: your rotation is correct, but the K^2 term of your translation
       has the wrong sign
-    travel-without-K: your rotation is correct, but your translation lacks the K term
-    travel-without-KK: your rotation is correct, but your translation lacks the K^2 term
+    travel-without-K: your rotation is correct, but your code omits the K term of the
+      translation
+    travel-without-KK: your rotation is correct, but your code omits the K^2 term of the
+      translation
     travel-K-for-KK: your rotation is correct, but the last term of your translation
       contains K instead of K^2
     """
@@ -128,30 +131,33 @@ def _(S, theta):
 @row.wrongs
 def _(S, theta):
     """R-times-v: your rotation is correct, but your translation is R v. The translation
-      should be the integral of the rotated velocity
+      should be the integral of the rotated velocity from 0 to theta
     R-times-theta-v: your rotation is correct, but your translation is theta R v. The
-      velocity v rotates during the motion, so the translation is an integral over the
-      motion
-    travel-on-a-line: your rotation is correct, but your translation is theta v, a
-      straight line. The path of a screw motion with a rotation is curved
+      translation should be the integral of the rotated velocity, because v rotates
+      during the motion
+    travel-on-a-line: your rotation is correct, but your translation is theta v, which
+      is correct only without a rotation. With a rotation, the translation is the
+      integral of the rotated velocity
     travel-is-v: your rotation is correct, but your translation is v for every theta.
       The translation should be 0 at theta = 0
     travel-turned: your rotation is correct, but your code also multiplies the complete
       translation by R. Use the translation unchanged
     travel-over-theta: your rotation is correct, but your code divides the translation
-      by theta
-    moment-used-as-point: your code uses v as a point on the axis, but v is the velocity
-      of the body point at the origin
-    pitch-forgotten: if omega is not 0, your code omits the translation along the axis
-    pitch-without-theta: if omega is not 0, your code does not multiply the translation
-      along the axis by theta
-    hinges-only: your code omits the translation along the axis for every screw
+      by theta. Omit this division
+    moment-used-as-point: your code uses v as a point on the axis. Use the point omega x
+      v instead, because v is the velocity of the body-fixed point at the origin
+    pitch-forgotten: your code omits the translation along the axis if omega is not 0.
+      This translation is needed for a screw with a pitch
+    pitch-without-theta: your code multiplies the translation along the axis by theta
+      only if omega is 0. Always multiply this translation by theta
+    hinges-only: your code omits the translation along the axis for every screw. This
+      translation is 0 only for a pure rotation
     sign-of-the-point: your rotation is correct, but your point on the axis has the
       wrong sign. The point of the axis nearest to the origin is omega x v
-    slide-forgotten: a screw with omega = 0 causes no motion in your code, but such a
-      screw represents a pure translation
-    slide-without-theta: in your code, a screw with omega = 0 causes the translation v.
-      The translation should be theta v
+    slide-forgotten: your translation is 0 for a screw with omega = 0. Such a screw
+      represents a pure translation, so the translation should be theta v
+    slide-without-theta: your translation is v for a screw with omega = 0. The
+      translation should be theta v
     """
     omega = S[:3]
     v = S[3:]
@@ -180,8 +186,8 @@ def _(S, theta):
 
 @row.wrong
 def exp_by_entries(S, theta):
-    """your code uses np.exp, which acts on each entry, but the matrix exponential is a
-    series of matrix products"""
+    """your code uses np.exp, which takes the exponential of each entry. Use the matrix
+    exponential instead, which is a series of matrix products"""
     bracket = np.zeros((4, 4))
     bracket[:3, :3] = skew(S[:3])
     bracket[:3, 3] = S[3:]
@@ -189,7 +195,9 @@ def exp_by_entries(S, theta):
 
 
 row.reached_by(
-    "skew", "in the skew-symmetric matrix [omega], ", called={"w_": "omega_"}
+    "skew",
+    "in the skew-symmetric matrix [omega], ",
+    called={"w_": "omega_", "w x p": "omega x p", "p x w": "p x omega"},
 )
 row.reached_by("exp_rotation", "in the rotation part, ")
 row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign

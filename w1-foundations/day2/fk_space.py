@@ -21,8 +21,8 @@ def _(screws, M, q):
     M-only-added: your code adds only the translation of M. Multiply by M instead,
       because M also contains a rotation
     space-screws-in-body-form: your code transforms the screws to the end-effector
-      frame, but this order of the factors needs screws in the world frame. Use the
-      screws unchanged
+      frame. Use the screws unchanged, because this order of the factors requires screws
+      in the world frame
     """
     added = np.zeros((4, 4))
     added[:3, 3] = M[:3, 3]
@@ -37,7 +37,7 @@ def _(screws, M, q):
 @row.wrong
 def screws_moved_along(screws, M, q):
     """your code transforms each screw by the motions of the joints before it. The
-    product already includes these motions, so use the screws at q = 0"""
+    product already includes these motions, so use the screws at q = 0 unchanged"""
     T = np.eye(4)
     for S, theta in zip(screws, q, strict=True):
         T = T @ motion(adjoint(T) @ S, theta)

@@ -24,22 +24,25 @@ def _(rng):
 
 @row.wrongs
 def _(T_zero):
-    """axis-row-not-column: your axis is a row of R, but the link's z axis, expressed in
-      the world frame, is a column of R
+    """axis-row-not-column: your axis is the third row of R. Use the third column
+      instead, which is the link's z axis expressed in the world frame
     axis-local-z: your axis is (0, 0, 1) for every joint, the z axis expressed in the
       link frame. The screw should be expressed in the world frame
-    axis-x-column: your axis is the link's x axis, but the Panda's joints rotate about z
-    axis-y-column: your axis is the link's y axis, but the Panda's joints rotate about z
+    axis-x-column: your axis is the link's x axis. Use the link's z axis, because the
+      Panda's joints rotate about z
+    axis-y-column: your axis is the link's y axis. Use the link's z axis, because the
+      Panda's joints rotate about z
     point-is-local-pos: your point on each axis is the link's position relative to its
-      parent, but the screw should be expressed in the world frame
-    all-local: your axis and your point are relative to the parent link, but the screw
-      should be expressed in the world frame
-    poses-multiplied: your code multiplies the poses along the arm, but the given poses
-      are already relative to the world
-    point-turned-back: your code rotates the point into the link frame, but the point is
-      already expressed in the world frame
+      parent. Use the position relative to the world, because the screw should be
+      expressed in the world frame
+    all-local: your axis and your point are relative to the parent link. Use both
+      relative to the world, because the screw should be expressed in the world frame
+    poses-multiplied: your code multiplies the poses along the arm. Use each pose
+      unchanged, because the given poses are already relative to the world
+    point-turned-back: your code rotates the point into the link frame. Use the point
+      unchanged, because it is already expressed in the world frame
     next-links-point: your point for each joint is the origin of the next link, which is
-      not always on the joint's axis
+      not always on the joint's axis. Use the origin of the joint's own link
     """
     R = T_zero[:, :3, :3]
     p = T_zero[:, :3, 3]
@@ -68,7 +71,7 @@ for before in (
     row.wrong(
         "previous-links-point",
         "your point for each joint is the origin of the previous link, which is not "
-        "always on the joint's axis",
+        "always on the joint's axis. Use the origin of the joint's own link",
     )(
         lambda T_zero, before=before: screw_axis(
             T_zero[:, :3, 2], before(T_zero[:, :3, 3])

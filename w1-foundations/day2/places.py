@@ -5,9 +5,9 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 
 from labkit.judge import Case, Draw, Finding, Pose
-from labkit.judge.answers import InTurn, difference, matches, rigid
+from labkit.judge.answers import InTurn, capitalised, difference, matches, rigid
 from labkit.judge.chain import Factor, one_place, product
-from labkit.judge.row import row_of
+from labkit.judge.row import inside, row_of
 from labkit.lesson.day import find_day
 from robo47.checks import Array
 from robo47.screws import dh_link, exp_screw
@@ -88,20 +88,21 @@ def _exponential(S: Array, q: Array, k: int) -> Factor:
 
     def candidates() -> Found:
         never = (
-            f"Your product omits the exponential of {name}, so this joint does not move"
+            f"Your product omits the exponential of {name}, so this joint has no effect"
         )
         yield Finding("joint-skipped", never), np.eye(4)[None]
         twice = f"Your product contains the exponential of {name} twice"
         yield Finding("joint-twice", twice), exp_screw(S[:, k], 2.0 * q[:, k])
         for j in set(range(q.shape[1])) - {k}:
-            says = f"In your product, {name} moves by the angle of joint{j + 1}"
+            says = f"Your code moves {name} by the angle of joint{j + 1}"
             yield Finding("joint-fed-another", says), exp_screw(S[:, k], q[:, j])
-            says = f"In your product, {name} moves along the screw of joint{j + 1}"
+            says = f"Your code moves {name} along the screw of joint{j + 1}"
             yield Finding("screw-of-another", says), exp_screw(S[:, j], q[:, k])
 
     def unnamed(X: Array) -> Finding | None:
         if found := mistake_of("exp_screw", NOT_OF_AN_ARM, X, S[:, k], q[:, k]):
-            says = f"In the exponential of {name} alone, {found.message}"
+            says = inside("in this exponential, ", found.message)
+            says = f"Only the exponential of {name} is wrong. {capitalised(says)}"
             return Finding(found.slug, says)
         omega = S[:, k, :3]
         vee = X[:, [2, 0, 1], [1, 2, 0]] - X[:, [1, 2, 0], [2, 0, 1]]
@@ -109,7 +110,7 @@ def _exponential(S: Array, q: Array, k: int) -> Factor:
         cosine = 0.5 * (np.trace(X[:, :3, :3], axis1=1, axis2=2) - 1.0)
         if not matches(X, exp_screw(S[:, k], np.arctan2(sine, cosine))):
             return None
-        says = f"In your product, {name} moves along its screw by the wrong angle"
+        says = f"Your code moves {name} along the correct screw, but by the wrong angle"
         return Finding("joint-angle-off", says)
 
     return Factor(name, exp_screw(S[:, k], q[:, k]), False, candidates, unnamed)
@@ -120,15 +121,15 @@ def _row(table: Array, theta: Array, k: int) -> Factor:
     name = f"row {k + 1}"
 
     def candidates() -> Found:
-        missing = f"In your product, {name} of the table has no effect"
+        missing = f"Your product omits {name} of the table"
         yield Finding("row-skipped", missing), np.eye(4)[None]
         for j in set(range(theta.shape[1])) - {k}:
-            says = f"In your product, {name} of the table has the angle of row {j + 1}"
+            says = f"Your code uses the angle of row {j + 1} for {name} of the table"
             yield Finding("row-fed-another", says), dh_link(*columns, theta[:, j])
 
     def unnamed(X: Array) -> Finding | None:
         if found := mistake_of("dh_link", (), X, *columns, theta[:, k]):
-            says = f"In {name} of the table alone, {found.message}"
+            says = f"Only {name} of the table is wrong. In this row, {found.message}"
             return Finding(found.slug, says)
         return None
 
@@ -150,7 +151,7 @@ def _one_at_a_time(case: Case) -> Finding | None:
     if not off:
         where = (
             "If only one joint moves at a time, your pose is correct. Look at the "
-            "product of the exponentials, for example at the order of the factors."
+            "order of the exponentials in the product."
         )
     else:
         where = "If only one joint moves at a time, your pose is wrong for "

@@ -41,7 +41,7 @@ def product_row(fk, inputs):
         inputs: generator of screws, M and q.
     """
     row = Row(
-        Pose(wrong_way="maps the world to the end effector"),
+        Pose(wrong_way="maps world coordinates to end-effector coordinates"),
         truth=lambda S, M, q: fk(S[None], M, q[None])[0],
         alike=ALIKE,
         probe=places.alone(inputs),
@@ -63,7 +63,11 @@ def either_form(row, form):
     row.of_argument("q", *OF_ALL_JOINTS)
     _in_M(row, form)
     row.reached_by(
-        "exp_screw", "in every exponential, ", but=NOT_OF_AN_ARM, hidden=HIDDEN
+        "exp_screw",
+        "in every exponential, ",
+        but=NOT_OF_AN_ARM,
+        called={" of the rotation part in ": " of "},  # one place is enough
+        hidden=HIDDEN,
     )
 
 
@@ -77,9 +81,9 @@ def _in_the_product(row, form):
         M-in-the-loop: your code multiplies by M inside the loop, so the product
           contains M once per joint. The product should contain M only once
         multiplied-by-entries: your code multiplies the exponentials entry by entry. Use
-          the matrix product
+          the matrix product instead
         multiplied-by-entries 2: your code multiplies the exponentials entry by entry.
-          Use the matrix product
+          Use the matrix product instead
         """
         factors = [motion(S, theta) for S, theta in zip(screws, q, strict=True)]
         beside_M = [with_M(form, T, M) for T in factors]
@@ -94,8 +98,9 @@ def _in_the_product(row, form):
 
     @row.wrong
     def exponentials_summed(screws, M, q):
-        """your code adds the twists and computes one exponential of the sum, but e^A
-        e^B equals e^(A + B) only if A and B commute"""
+        """your code adds the twists and computes one exponential of the sum. Multiply
+        the exponentials instead, because e^A e^B equals e^(A + B) only if A and B
+        commute"""
         V = q @ screws
         size = np.linalg.norm(V[:3]) or 1.0
         return with_M(form, motion(V / size, size), M)
@@ -104,10 +109,10 @@ def _in_the_product(row, form):
 def _in_M(row, form):
     @row.wrongs(hidden={"M-turned-back": "the Panda's M is symmetric"})
     def _(screws, M, q):
-        """M-forgotten: your product lacks M. The exponentials should act on M, the
-          end-effector pose at q = 0
-        M-inverted: your code inverts M, but M itself maps end-effector coordinates to
-          world coordinates
+        """M-forgotten: your product omits M. The end-effector pose at q = 0 is M, so
+          the product needs this factor
+        M-inverted: your code inverts M. Use M itself, which maps end-effector
+          coordinates to world coordinates
         M-twice: your product contains M twice. The product should contain M only once
         M-rotation-missing: your code uses only the translation of M and omits its
           rotation

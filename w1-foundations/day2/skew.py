@@ -8,7 +8,7 @@ from robo47.screws import skew
 row = Row(Matrix((3, 3)))
 
 FLIPPED = {"x": [-1, 1, 1], "y": [1, -1, 1], "z": [1, 1, -1]}
-SIGNS = (1, ""), (-1, " and reverses all signs")
+SIGNS = (1, ""), (-1, " and reverses the sign of every entry")
 SWAPPED = {"w_x and w_z": [2, 1, 0], "w_x and w_y": [1, 0, 2], "w_y and w_z": [0, 2, 1]}
 
 
@@ -20,13 +20,13 @@ def _(rng):
 
 @row.wrongs
 def _(w):
-    """p-cross-w: your code reverses every sign, so the two factors of the cross product
-      are swapped
-    no-minus: all signs are positive in your code, but entries that mirror each other
+    """p-cross-w: your code reverses the sign of every entry, so your matrix times a
+      vector p is p x w instead of w x p
+    no-minus: none of your entries has a minus sign. Entries that mirror each other
       across the diagonal should have opposite signs
-    outer-product: your code uses the outer product of the vector with itself, which
-      projects onto the vector instead of computing a cross product
-    on-the-diagonal: your code puts the vector on the diagonal, but all diagonal entries
+    outer-product: your code returns the outer product of the vector with itself. Use
+      the skew-symmetric matrix of the vector instead
+    on-the-diagonal: your code puts the vector on the diagonal. All diagonal entries
       should be 0
     """
     x, y, z = w
@@ -41,7 +41,7 @@ def _(w):
 for letter, signs in FLIPPED.items():
     row.wrong(
         "pair-of-signs",
-        f"both entries that contain w_{letter} have the wrong sign in your code",
+        f"both of your entries that contain w_{letter} have the wrong sign",
     )(lambda w, signs=signs: skew(w * signs))
 for sign, more in SIGNS:
     for letters, order in SWAPPED.items():

@@ -44,8 +44,9 @@ def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
     if one_of_two[some].max() > OFF and _alike(np.abs(S[some]), np.abs(T[some])):
         return Finding(
             "signs-near-pi",
-            f"{says} The entries are correct except for their signs, which a "
-            "square root of the diagonal loses. Which column of R + R^T contains them?",
+            f"{says} The entries are correct except for their signs, which a square "
+            "root of the diagonal loses. Which entries of R + R^T contain their "
+            "relative signs?",
         )
     if found := _set_to_pi(S, T, some):
         return found
@@ -67,8 +68,8 @@ def _set_to_pi(S: Array, T: Array, some: np.ndarray) -> Finding | None:
     least = np.pi - float(length.min())
     return Finding(
         "pi-for-the-angle",
-        f"Your angle is pi, but it should be {least:.1e} rad smaller. Near pi the sine "
-        "is small, not 0, so atan2 still gives the angle.",
+        f"Your angle is pi, but it should be {least:.1e} rad smaller. Near pi, the "
+        "sine is small but not 0, so atan2 still gives the correct angle.",
     )
 
 

@@ -23,19 +23,20 @@ def _(rng):
 @row.wrongs
 def _(J_space, T):
     """space-for-body: your code returns J_space, which is expressed in the world frame.
-      J_body should be expressed in the hand frame
+      Return J_body instead, which is expressed in the hand frame
     site-for-body: your code returns J_site, whose v belongs to the correct point but is
       expressed in the world frame. Express both halves in the hand frame
-    rotation-only: your code only rotates J_space into the hand frame, but v is still
-      the velocity of the body point at the world origin
-    transposed-adjoint: your code transposes Ad(T), but the inverse of an adjoint is not
-      its transpose
+    rotation-only: your code only rotates J_space into the hand frame, so v is still the
+      velocity of the body-fixed point at the world origin. Use the velocity of the
+      point at the hand origin instead
+    transposed-adjoint: your code uses the transpose of Ad(T). Use Ad(T^-1) instead,
+      which is the inverse of Ad(T)
     bracket-without-R: the lower left block of your adjoint is [p]. This block should be
-      [p] R
+      [p] R, where R and p are the two parts of T^-1
     bracket-on-the-right: the lower left block of your adjoint is R [p]. This block
-      should be [p] R
+      should be [p] R, where R and p are the two parts of T^-1
     turned-by-R: your code multiplies J_site by R, which rotates from the hand frame to
-      the world frame. Use R^T
+      the world frame. Use R^T instead
     """
     J_site = site_jacobian(J_space, T[:3, 3])
     R = np.kron(np.eye(2), T[:3, :3])

@@ -39,16 +39,17 @@ def _(rng):
 @row.wrongs
 def _(J, e, damping):
     """relative-damping: your code multiplies `damping` by the largest singular value of
-      J, but `damping` already has the units of J
+      J. Use `damping` unchanged, because it already has the units of J
     damping-dropped: your code omits the damping, so the result is the pseudo-inverse
-      step, which is very large near a singularity
+      step, which is very large near a singularity. Add damping^2 to the diagonal of J
+      J^T
     damping-everywhere: your code adds damping^2 to every entry of J J^T. Add damping^2
-      only to the diagonal
+      only to its diagonal
     transpose-only: your code returns the gradient step J^T e. The damped least-squares
-      step also needs the inverse of the damped J J^T
+      step also contains the inverse of the damped matrix J J^T
     pseudo-inverse-scaled: your code divides the pseudo-inverse step by 1 + damping^2,
-      which scales all directions alike. Damping should mainly reduce directions with
-      small singular values
+      which scales all directions equally. Damping should mainly reduce the directions
+      with small singular values
     damping-fixed: your damping is always 0.05. Use the argument `damping`
     damping-added-to-the-values: your factors are 1 / (s + damping) for the singular
       values s. The factors should be s / (s^2 + damping^2)

@@ -24,13 +24,16 @@ def _(rng):
 @row.wrongs
 def _(J_space, p, F):
     """at-the-origin: your code uses J_space^T, which requires the moment about the
-      world origin, but the given moment is about p
-    what-balances-it: your sign would be correct for a wrench that acts on the hand, but
-      F is the wrench that the hand exerts. The motor power should equal the power of F
-    pseudo-inverse: your code returns J^+ F, which does not conserve power. Write down
-      the motor power and the power of F at the hand
-    moment-forgotten: your code omits the moment, whose power is moment . omega
-    force-forgotten: your code omits the force, whose power is force . v
+      world origin. The given moment is about p, so use the Jacobian of p or convert the
+      moment
+    what-balances-it: your code returns the negative of the correct torques. F is the
+      wrench that the hand exerts, so the motor power should equal the power of F
+    pseudo-inverse: your code returns J^+ F, which does not conserve power. Which matrix
+      makes the motor power equal to the power of F at the hand?
+    moment-forgotten: your code omits the moment. The moment also contributes to the
+      power of F, by moment . omega
+    force-forgotten: your code omits the force. The force also contributes to the power
+      of F, by force . v
     arm-the-wrong-way: your moment of the force about the origin is f x p. The moment
       should be p x f
     arm-twice: your code adds p x f to the moment, as for J_space, and also uses the

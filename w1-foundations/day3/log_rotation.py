@@ -137,18 +137,19 @@ def _(R):
     twice-the-sine: your vector has the entries of R - R^T, so its norm is twice the
       sine of the angle. The norm should be the angle itself
     quaternion-vector-part: your vector is the vector part of the quaternion, whose norm
-      is sin(angle / 2). The norm should be the angle
+      is sin(angle / 2). The norm of your vector should be the angle
     twice-the-quaternion-part: your vector is twice the vector part of the quaternion,
-      which is accurate only for small angles
+      so its norm is 2 sin(angle / 2). The norm should be the angle
     axis-only: your vector is the unit vector along the axis. The norm of the vector
       should be the angle
-    arcsine: your code computes the angle with an arcsine, which cannot distinguish 100
-      degrees from 80 degrees. Use the trace of R as well
-    half-the-angle: the norm of your vector is half the angle, as in a quaternion. The
-      norm should be the whole angle
-    in-degrees: your angle is in degrees. The angle should be in radians
-    roll-pitch-yaw: your code returns roll, pitch and yaw, the angles of three
-      successive rotations, but a rotation vector describes a single rotation
+    arcsine: your code computes the angle only with an arcsine, which cannot distinguish
+      100 degrees from 80 degrees. Use atan2 with the sine and the cosine of the angle
+      instead
+    half-the-angle: the norm of your vector is half the rotation angle. The norm should
+      be the full rotation angle
+    in-degrees: the norm of your vector is the angle in degrees. Use radians instead
+    roll-pitch-yaw: your code returns roll, pitch and yaw, which are the angles of three
+      successive rotations. Return the rotation vector of the single rotation R instead
     """
     q = se3.R_to_quat(R)
     a, sine, _ = parts(R)
@@ -186,13 +187,13 @@ def _(R):
 
 @row.wrongs(hidden={"arccosine-beyond-1": "its identity is exact"})
 def _(R):
-    """textbook-formula: your code multiplies R - R^T by theta / (2 sin(theta)). This
-      factor is 0 / 0 for the identity matrix, and near pi it amplifies the rounding
-      errors
+    """textbook-formula: your code multiplies R - R^T by theta / (2 sin(theta)). For the
+      identity matrix, this factor is 0 / 0, and near pi it amplifies the rounding
+      errors. Treat both cases separately
     nan-at-0: your result for the identity matrix is NaN, because your code divides by
-      sin(0) = 0
+      sin(0) = 0. Return the zero vector for a rotation by 0
     arccosine-beyond-1: your result is NaN where rounding makes (trace - 1) / 2 larger
-      than 1 or smaller than -1. Use atan2, which accepts all values
+      than 1 or smaller than -1. Compute the angle with atan2 instead of the arccosine
     """
     angle = np.arccos(cosine(R))
     no_turn = cosine(R) > 0 and not vee(R).any()
@@ -212,9 +213,9 @@ def from_column(R, k):
 for k, (which, missing) in enumerate((("first", "x"), ("second", "y"), ("last", "z"))):
     row.wrong(
         "fixed-column",
-        f"near pi your code always takes the axis from the {which} column of R + R^T. "
-        f"This column is 0 if the axis has no {missing} component. Use the column with "
-        "the largest norm",
+        f"your code always takes the axis from the {which} column of axis axis^T "
+        f"near pi. This column is 0 if the axis has no {missing} component. Use the "
+        "column with the largest norm instead",
         hidden="its half turn is about y" if missing == "y" else "",
     )(lambda R, k=k: from_column(R, k))
 
@@ -292,8 +293,8 @@ def _(R):
 
 @row.wrong
 def two_arguments_exchanged(R):
-    """your angle is pi minus the correct angle, because the cosine (the second argument
-    of the arctangent) has the wrong sign"""
+    """your angle is pi minus the correct angle, because the cosine has the wrong sign.
+    The cosine is the second argument of atan2"""
     w = log_rotation(R)
     angle = np.linalg.norm(w)
     return (np.pi - angle) * w / angle if angle > 0 else w

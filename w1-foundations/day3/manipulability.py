@@ -39,19 +39,21 @@ def values(J):
 
 @row.wrongs
 def _(J):
-    """no-square-root: your code returns det(J J^T) without the square root
+    """no-square-root: your code returns det(J J^T). Return the square root of this
+      determinant instead
     other-product: your code uses J^T J, which is 7x7 and always singular. Use J J^T
-    largest-singular-value: your code returns the largest singular value, the norm of J.
-      The result should be the product of all six singular values
-    trace: your code uses the trace of J J^T, the sum of the eigenvalues. Use the
-      determinant, which is the product of the eigenvalues
+      instead
+    largest-singular-value: your code returns the largest singular value of J. The
+      result should be the product of all six singular values
+    trace: your code uses the trace of J J^T, which is the sum of the eigenvalues. Use
+      the determinant instead, which is the product of the eigenvalues
     inverse-condition: your code returns the smallest singular value divided by the
       largest. The result should be the product of all singular values
     square-part: your code returns the determinant of the first six columns. Use all
       seven columns
     position-only: your code uses only the three v rows of J. Use all six rows
-    zeros-left-out: your code omits singular values that are 0 from the product, but the
-      product should be 0 if at least one singular value is 0
+    zeros-left-out: your code omits singular values that are 0 from the product. Include
+      them, because the product should be 0 if any singular value is 0
     """
     JJ = J @ J.T
     s = values(J)

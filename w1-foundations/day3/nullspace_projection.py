@@ -59,19 +59,21 @@ def _(rng):
 def _(J, dq):
     """transpose-for-pseudo-inverse: your code uses J^T instead of J^+, so your matrix
       is not a projection and the hand moves
-    felt-part: your code returns J^+ J dq, the part of dq that moves the hand. Return
-      the remaining part of dq
-    unchanged: your code returns dq unchanged
-    added: your code adds the part of dq that moves the hand. Subtract this part
-    nothing-left: your result is 0, but an arm with seven joints always has a joint
-      motion that does not move the hand
-    normalised: your code normalises the result, but the norm of the projection depends
-      on dq. Return the projection unscaled
+    felt-part: your code returns J^+ J dq, which is the part of dq that moves the hand.
+      Return the remaining part of dq
+    unchanged: your code returns dq unchanged. Subtract the part of dq that moves the
+      hand
+    added: your code adds the part of dq that moves the hand. Subtract this part instead
+    nothing-left: your result is 0. Return the part of dq that does not move the hand,
+      because an arm with seven joints always has such a motion
+    normalised: your code normalises the result. Return the projection unscaled, because
+      its norm depends on dq
     one-direction-only: your code uses only the last right singular vector. If J is
-      singular, more than one direction leaves the hand at rest
-    first-direction-kept: your code does not remove the part along the first right
-      singular vector, which moves the hand most
-    position-only: your code uses only the three v rows of J, so the hand rotates
+      singular, use all right singular vectors with the singular value 0
+    first-direction-kept: your code does not remove the part of dq along the first right
+      singular vector. Remove this part too, because this direction moves the hand most
+    position-only: your code uses only the three v rows of J, so the hand rotates. Use
+      all six rows
     """
     felt = pinv(J) @ (J @ dq)
     left = dq - felt
@@ -93,7 +95,7 @@ def _(J, dq):
 @row.wrong
 def damped_projector(J, dq):
     """your code uses a pseudo-inverse with damping 0.05, so the hand still moves. Use
-    the pseudo-inverse without damping"""
+    the pseudo-inverse without damping instead"""
     return dq - dls_step(J, J @ dq, 0.05)
 
 

@@ -49,9 +49,9 @@ def _(T, T_goal):
     """in-the-hands-axes: both halves of your error are expressed in the hand frame.
       Both halves should be expressed in the world frame
     body-twist: your code returns the body twist log(T^-1 T_goal), which belongs to
-      J_body. The task asks for the error that belongs to J_site
+      J_body. Return the error that belongs to J_site
     space-twist: your code returns the spatial twist log(T_goal T^-1), which belongs to
-      J_space. The task asks for the error that belongs to J_site
+      J_space. Return the error that belongs to J_site
     """
     D = np.linalg.inv(T) @ T_goal
     return {
@@ -63,14 +63,16 @@ def _(T, T_goal):
 
 @row.wrongs
 def _(T, T_goal):
-    """rotation-in-the-hands-axes: your rotation vector is log(R^T R_goal), expressed in
-      the hand frame. The rotation vector should be expressed in the world frame
+    """rotation-in-the-hands-axes: your rotation vector is log(R^T R_goal), which is
+      expressed in the hand frame. The rotation vector should be expressed in the world
+      frame
     rotation-sign: your rotation leads from the goal to the hand. The rotation should
       lead from the hand to the goal
-    rotation-difference: your code subtracts the rotation vectors, but log(R_goal) -
-      log(R) is not the rotation vector from R to R_goal
-    euler-difference: your code subtracts roll, pitch and yaw, but their difference is
-      not a rotation vector
+    rotation-difference: your code returns log(R_goal) - log(R) as the rotation. Use the
+      logarithm of the rotation from R to R_goal instead
+    euler-difference: your code subtracts roll, pitch and yaw. Use the logarithm of the
+      rotation from R to R_goal instead, because the difference of these angles is not a
+      rotation vector
     """
     R = T[:3, :3]
     goal = T_goal[:3, :3]
@@ -93,8 +95,8 @@ def _(T, T_goal):
       translation should be the vector from the hand to the goal
     translation-sign: your translation leads from the goal to the hand. The translation
       should lead from the hand to the goal
-    screw-for-translation: your translation is p_goal - R p, the translation of T_goal
-      T^-1. The translation should be p_goal - p
+    screw-for-translation: your translation is p_goal - R p with the rotation R of
+      T_goal T^-1. The translation should be p_goal - p
     """
     goal = T_goal[:3, 3]
     turn = pose_error(T, T_goal)[:3]

@@ -19,12 +19,12 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p):
-    """space-for-site: your code returns J_space, whose v is the velocity of the body
-      point at the world origin. Use the velocity of the point p
+    """space-for-site: your code returns J_space, whose v is the velocity of the
+      body-fixed point at the world origin. Use the velocity of the point p instead
     halves-read-as-v-omega: your code reads the upper rows of J_space as v and the lower
-      rows as omega, but omega comes first
-    omega-changed: your code adds v x p to omega, but all points of a body have the same
-      omega
+      rows as omega. The upper rows are omega, and the lower rows are v
+    omega-changed: your code adds v x p to omega. Use omega unchanged, because all
+      points of a body have the same omega
     """
     omega = J_space[:3]
     v = J_space[3:]

@@ -28,12 +28,12 @@ BOTH_MOVE = "there both halves move"
 
 @row.wrongs
 def _(screws, M, T_goal, q_start, limits):
-    """one-step: your code takes only one step, but the Jacobian is a linear
-      approximation, so several steps are needed
+    """one-step: your code takes only one step. The Jacobian is a linear approximation,
+      so repeat the step until the error is small
     start-returned: your code returns `q_start`, because it takes no step or because
       every step increases the error. Does your error have the correct sign?
-    step-returned: your code returns the last step instead of the configuration after
-      this step
+    step-returned: your code returns the last step. Return the configuration after this
+      step instead
     """
     first = partial(passed, screws, M, T_goal, q_start, limits, steps=1)
     return {
@@ -53,19 +53,20 @@ def in_the_hands_axes(T, T_goal):
 
 @row.wrongs
 def _(screws, M, T_goal, q_start, limits):
-    """space-jacobian: your steps use J_space, whose v is the velocity of the body point
-      at the world origin, not the velocity of the hand
+    """space-jacobian: your steps use J_space, whose v is the velocity of the body-fixed
+      point at the world origin. Use J_site instead, whose v is the velocity of the hand
     body-jacobian: your steps use J_body, which is expressed in the hand frame, but your
       error is expressed in the world frame. Express both in the same frame
     error-in-the-hands-axes: your error is expressed in the hand frame, but J_site is
       expressed in the world frame. Express both in the same frame
-    damping-not-squared: your code adds the damping instead of its square, so the
-      damping is too strong
+    damping-not-squared: your code adds the damping instead of its square to the
+      diagonal of J J^T, so the damping is too strong
     limits-forgotten: your code does not apply the joint limits. Apply the limits after
       each step
-    jacobian-never-updated: your code computes the Jacobian only at the start, but the
-      Jacobian changes with every step
-    q-start-unused: your loop starts from READY_Q instead of `q_start`
+    jacobian-never-updated: your code computes the Jacobian only at the start. Compute
+      the Jacobian again in every step, because it depends on q
+    q-start-unused: your loop starts from READY_Q. Start from the argument `q_start`
+      instead
     """
     J = at_hand(space_jacobian(screws, q_start), fk_space(screws, M, q_start))
     parts = {
@@ -100,7 +101,7 @@ def limits_at_the_end(screws, M, T_goal, q_start, limits):
 
 @row.wrong
 def q_start_unused(screws, M, T_goal, q_start, limits):
-    """your loop starts from q = 0 instead of `q_start`"""
+    """your loop starts from q = 0. Start from the argument `q_start` instead"""
     return walk(screws, M, T_goal, np.zeros(7), limits)
 
 
@@ -180,8 +181,9 @@ def _(screws, M, T_goal, q_start, limits):  # 0 is taken to be within all limits
     return walk(screws, M, T_goal, q_start, np.array([low, high]).T)
 
 
-WRAPPED = "your code wraps the angles to [-pi, pi] at the end, but joint6 can reach "
-WRAPPED += "3.75 rad, and the wrapped angle is then outside the joint limits"
+WRAPPED = "your code wraps the angles to [-pi, pi] at the end. Return the angles "
+WRAPPED += "unchanged, because joint6 can move to 3.75 rad, and its wrapped angle "
+WRAPPED += "violates the joint limits"
 for kept in (True, False):
 
     @row.wrong("wrapped-to-pi", WRAPPED)

@@ -55,21 +55,20 @@ ZERO = np.zeros((3, 3))
 
 @row.wrongs
 def _(screws, q):
-    """screws-constant: your columns are the screws at q = 0, but each joint moves the
-      screws of all joints after it
-    last-joint-only: your code moves each screw only by the joint directly before it,
-      but all joints before it move the screw
-    product-reversed: your code multiplies the exponentials in the reverse order, but
-      the exponential of joint 1 belongs on the left
-    one-joint-late: each screw in your code lacks the motion of the joint directly
-      before it. Multiply the product by the exponential of this joint before you
-      transform the screw
-    moved-by-the-next: your code also moves each screw by the joint after it, but this
-      joint does not move the screw
-    moved-by-all: your code moves every screw by all seven joints, but only the joints
-      before a screw move this screw
-    moved-by-those-after: your code moves each screw by the joints after it, but only
-      the joints before it move the screw
+    """screws-constant: your columns are the screws at q = 0. Transform each screw by
+      the motions of all joints before it
+    last-joint-only: your code moves each screw only by the joint directly before it.
+      Move each screw by all joints before it
+    product-reversed: your code multiplies the exponentials in the reverse order. The
+      exponential of joint 1 should be on the left
+    one-joint-late: your code transforms each screw before it multiplies the product by
+      the exponential of the preceding joint. Multiply by this exponential first
+    moved-by-the-next: your code also moves each screw by the joint after it. Move each
+      screw only by the joints before it
+    moved-by-all: your code moves every screw by all seven joints. Move each screw only
+      by the joints before it
+    moved-by-those-after: your code moves each screw by the joints after it. Move each
+      screw by the joints before it instead
     adjoint-of-the-inverse: your code transforms the screws with the adjoint of the
       inverse motion. Use the adjoint of the motion itself
     columns-reversed: your columns are in the reverse order. The column of joint 1
@@ -98,9 +97,10 @@ def _(screws, q):
       order (omega; v), this block belongs in the lower left
     bracket-after-R: the lower left block of your adjoint is R [p]. This block should be
       [p] R
-    rotation-only: your code only rotates the screws, because your adjoint lacks the
-      block [p] R
-    translation-only: your code does not rotate the screws, because your adjoint lacks R
+    rotation-only: your code only rotates the screws, because your adjoint omits the
+      block [p] R. This block belongs in the lower left
+    translation-only: your code does not rotate the screws, because the diagonal blocks
+      of your adjoint are the identity matrix. Both blocks should be R
     """
     adjoints = {
         "bracket-top-right": lambda R, P: [[R, P @ R], [ZERO, R]],

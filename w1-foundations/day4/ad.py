@@ -23,18 +23,18 @@ def _(rng):
 def _(V):
     """v-on-top: your block [v] is in the upper right. The block belongs in the lower
       left, because a linear velocity does not change an angular velocity
-    v-forgotten: your code omits the block [v], but the linear velocity changes the
-      linear half of a twist
-    second-omega-forgotten: your lower right block is 0, but omega also rotates the
-      linear half of a twist
+    v-forgotten: your code omits the block [v] in the lower left. This block adds v x
+      omega2 to the linear part of the result
+    second-omega-forgotten: your lower right block is 0. This block should be [omega],
+      which adds omega x v2 to the linear part of the result
     v-in-both-corners: your block [v] is in both off-diagonal blocks. The upper right
-      block should be 0
+      block should be 0, because v does not change an angular velocity
     v-last: your lower right block is [v]. Both diagonal blocks should be [omega]
-    identity-added: your code adds the identity matrix. The matrix ad(V) is a rate of
-      change, so ad(0) should be 0
-    product-for-v: your lower left block is [v] [omega]. The adjoint of a pose contains
-      a product, [p] R, but ad(V) contains only [v]
-    omega-everywhere: your lower left block is [omega] instead of [v]
+    identity-added: your code adds the identity matrix. Omit the identity matrix,
+      because ad(V) is a rate of change and ad(0) should be 0
+    product-for-v: your lower left block is [v] [omega]. This block should be [v]. Only
+      the adjoint of a pose contains a product, [p] R
+    omega-everywhere: your lower left block is [omega]. This block should be [v]
     """
     W = skew(V[:3])
     U = skew(V[3:])

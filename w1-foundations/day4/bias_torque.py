@@ -20,13 +20,13 @@ def _(rng):
 @row.wrongs
 def _(J, G, qd, g):
     """coriolis-twice: your gravity torque is correct, but your Coriolis and centrifugal
-      torques are twice the correct torques
+      torques are twice the correct values. Does your code add a velocity term twice?
     coriolis-half: your gravity torque is correct, but your Coriolis and centrifugal
-      torques are half the correct torques
+      torques are half the correct values. Does your code omit a velocity term?
     speed-in-place-of-acceleration: your code passes qd as the acceleration and 0 as the
       velocity. Pass qd as the velocity and 0 as the acceleration
-    damping-added: your code adds the damping torque, 1.0 qd, but MuJoCo and task 4.8
-      treat this torque separately
+    damping-added: your code adds the damping torque, 1.0 qd. Omit this torque, because
+      MuJoCo and task 4.8 treat it separately
     """
     holding, tau = (inverse_dynamics(J, G, v, STILL, g) for v in (STILL, qd))
     return {
@@ -51,8 +51,8 @@ row.reached_by(
 
 @row.wrong
 def rate_of_the_mass_matrix(J, G, qd, g):
-    """your velocity term is dM/dt qd, but Lagrange's equations also subtract the
-    gradient of the kinetic energy with respect to q"""
+    """your velocity term is only dM/dt qd. Also subtract the gradient of the kinetic
+    energy with respect to q, as in Lagrange's equations"""
     X = ad(np.cumsum(J * qd, axis=1).T)  # of each link
     J_rate = np.array([X_i @ S for X_i, S in zip(X, J.T)]).T
     G_rate = np.array([-X_i.T @ G_i - G_i @ X_i for X_i, G_i in zip(X, G)])

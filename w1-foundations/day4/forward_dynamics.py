@@ -45,19 +45,20 @@ def _(M, bias, damping, qd, tau):
 @row.wrongs
 def _(M, bias, damping, qd, tau):
     """both-signs: your code adds `bias` and the damping torque to tau. Subtract both
-      from tau
-    armature-twice: your code adds the armature to M, but M already contains the
-      armature (task 4.3)
-    mass-of-the-step: your code uses M + h damping, the matrix of the simulator's
-      implicit step of h = 2 ms. The acceleration at this instant needs M alone
-    velocity-returned: your code returns qd + h qdd, the velocity after a step of 2 ms.
-      Return qdd
-    divided-entry-by-entry: your expression 1 / M inverts each entry, but the inverse of
-      a matrix does not consist of reciprocals
-    damping-not-divided: your code subtracts the damping torque after the division by M.
-      Subtract all torques before the division
-    only-torque-divided: your code divides only tau by M, but `bias` and the damping
-      torque are also torques. Subtract both from tau first
+      from tau instead
+    armature-twice: your code adds the armature to M. Use M unchanged, because M already
+      contains the armature (task 4.3)
+    mass-of-the-step: your code uses M + h damping, which is the matrix of the
+      simulator's implicit step with h = 2 ms. Use only M, because qdd is the
+      acceleration at this instant
+    velocity-returned: your code returns qd + h qdd, which is the velocity after a step
+      of h = 2 ms. Return qdd instead
+    divided-entry-by-entry: your expression 1 / M takes the reciprocal of each entry of
+      M. Use the matrix inverse of M, or solve the linear system
+    damping-not-divided: your code subtracts the damping torque after the multiplication
+      by M^-1. Subtract all torques before this multiplication
+    only-torque-divided: your code multiplies only tau by M^-1. Subtract `bias` and the
+      damping torque from tau first, because both are also torques
     """
     brake = damping * qd
     net = tau - bias - brake

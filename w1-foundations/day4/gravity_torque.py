@@ -40,12 +40,12 @@ def torque(
 @row.wrongs
 def _(J, masses, coms_world, g):
     """gravity-sign: your code returns the torque that gravity exerts. Return the motor
-      torque that balances this torque and has the opposite sign
+      torque that balances this torque, which has the opposite sign
     velocity-of-the-origin: your code uses the lower half of J_space, which is the
-      velocity of the body point at the world origin. Use the velocity of the centre of
-      mass, where the weight acts
-    omega-rows-for-v: your code uses the upper half of J_space as the velocity, but this
-      half is omega
+      velocity of the body-fixed point at the world origin. Use the velocity of the
+      centre of mass, where the weight acts
+    omega-rows-for-v: your code uses the upper half of J_space, which is omega, as the
+      velocity. Use the velocity of the centre of mass, v + omega x c
     """
     given = masses, coms_world, g
     tau = gravity_torque(J, *given)
@@ -59,16 +59,16 @@ def _(J, masses, coms_world, g):
 
 @row.wrongs
 def _(J, masses, coms_world, g):
-    """links-not-cut: each torque in your code includes all links, but a joint carries
-      only its own link and the links after it
-    own-link-only: each torque in your code includes only the joint's own link, but the
-      joint also carries the links after it
-    own-link-left-out: each torque in your code includes only the links after the
-      joint's own link, but the joint also carries its own link
-    link-before-too: each torque in your code also includes the link before the joint,
-      but this link does not move with the joint
-    links-on-the-wrong-side: each torque in your code includes the links before the
-      joint, but these links do not move with the joint. Use the links after the joint
+    """links-not-cut: your code includes all links in the torque of every joint. Include
+      only the links that the joint carries: its own link and the links after it
+    own-link-only: your code includes only the joint's own link in each torque. Include
+      the links after it as well, because the joint also carries them
+    own-link-left-out: your code omits the joint's own link in each torque. Include this
+      link, because the joint also carries it
+    link-before-too: your code also includes the link before the joint in each torque.
+      Omit this link, because it does not move with the joint
+    links-on-the-wrong-side: your code includes the links from the base to the joint's
+      own link in each torque. Include the joint's own link and the links after it
       instead
     """
     joint = np.arange(7)
@@ -87,8 +87,8 @@ def _(J, masses, coms_world, g):
 
 @row.wrong
 def centre_not_weighted(J, masses, coms_world, g):
-    """your code uses the unweighted mean of the centres of mass beyond each joint.
-    Weight each centre of mass by the mass of its link"""
+    """your code uses the unweighted mean of the centres of mass that each joint
+    carries. Weight each centre of mass by the mass of its link"""
     tau = np.zeros(7)
     for i in range(7):
         c = coms_world[i:].mean(axis=0)

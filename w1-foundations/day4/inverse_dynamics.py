@@ -54,16 +54,17 @@ def passes(
 
 @row.wrongs
 def _(J, G, qd, qdd, g):
-    """base-acceleration-sign: your base acceleration has the wrong sign. A base at rest
+    """base-acceleration-sign: your base acceleration is g instead of -g. A base at rest
       under gravity is equivalent to a base that accelerates against g
     gravity-only: your code uses neither qd nor qdd, so the result is only the gravity
-      torque
-    armature-added: your code adds the armature torque, 0.1 qdd, but the task includes
-      only the links
-    damping-added: your code adds the damping torque, 1.0 qd, but the task includes only
-      the links
+      torque. Use both arguments
+    armature-added: your code adds the armature torque, 0.1 qdd. Omit this torque,
+      because the task includes only the links
+    damping-added: your code adds the damping torque, 1.0 qd. Omit this torque, because
+      the task includes only the links
     armature-and-damping-added: your code adds the armature torque, 0.1 qdd, and the
-      damping torque, 1.0 qd, but the task includes only the links
+      damping torque, 1.0 qd. Omit both torques, because the task includes only the
+      links
     """
     given = {
         "base-acceleration-sign": (qd, qdd, -g),
@@ -86,38 +87,44 @@ def walked(J, G, qd, qdd, g, others):
 
 @row.wrongs
 def _(J, G, qd, qdd, g):
-    """bracket-forgotten: your acceleration lacks the term ad(V) S qd, but a joint's
-      screw changes direction when it moves with its link
-    bracket-sign: your acceleration has the wrong sign in front of the term ad(V) S qd
+    """bracket-forgotten: your code omits the term ad(V) S qd of the acceleration. This
+      term is needed because a joint's screw changes direction when it moves with its
+      link
+    bracket-sign: your code subtracts the term ad(V) S qd from the acceleration. Add
+      this term instead
     bracket-twice: your code adds ad(V) S qd twice to the acceleration. Add this term
-      once, because the wrench contributes the other half of the Coriolis force
-    speed-squared: your acceleration contains ad(V) S qd^2, but V already contains one
-      of the two velocities
-    bracket-not-transposed: your wrench contains ad(V), but wrenches transform with the
-      transpose of ad(V)
-    velocity-product-forgotten: your wrench is only G A. The wrench also needs the term
-      -ad(V)^T G V, because G changes when the link moves
-    velocity-of-the-link-before: your wrench uses V without the velocity of the link's
-      own joint. Add this velocity to V first
-    summed-from-the-base: your code sums the wrenches from the base to the tip. A motor
-      carries the links between itself and the tip, so start at the tip
-    every-link-for-all: each torque in your code includes the wrenches on all seven
-      links, but a joint carries only its own link and the links after it
+      only once, because the derivative of S qd is S qdd + ad(V) S qd
+    speed-squared: your code adds ad(V) S qd^2 to the acceleration. Add ad(V) S qd
+      instead, because V is already proportional to the joint velocities
+    bracket-not-transposed: your wrench contains -ad(V) G V. Use -ad(V)^T G V instead,
+      because wrenches transform with the transpose of ad(V)
+    velocity-product-forgotten: your wrench is only G A. The wrench also contains the
+      term -ad(V)^T G V, because G changes when the link moves
+    velocity-of-the-link-before: your wrench uses V before your code adds the velocity
+      of the link's own joint. Add this velocity to V first
+    summed-from-the-base: your code sums the wrenches from the base to the joint's own
+      link. Sum the wrenches from the joint's own link to the tip instead, because a
+      motor carries these links
+    every-link-for-all: your code includes the wrenches on all seven links in every
+      torque. Include only the wrenches on the links that the joint carries: its own
+      link and the links after it
     moment-only: your code uses only the moments about the world's origin. Use all six
-      components of S, because a force also has a moment about an axis that does not
-      pass through the origin
-    own-link-left-out: each torque in your code includes only the wrenches on the links
-      after the joint's own link, but the joint also carries its own link
-    accelerations-not-added: your acceleration of each link includes only the link's own
-      joint, but the joints before this joint also move the link
-    nothing-added-outwards: your code resets V and A at every link. Both should
-      accumulate along the arm
+      components of the wrench, because a force also causes a torque about a joint axis
+      that does not pass through the origin
+    own-link-left-out: your code omits the wrench on the joint's own link in each
+      torque. Include this wrench, because the joint also carries its own link
+    accelerations-not-added: your code includes only the terms of the link's own joint
+      in each acceleration. Add the acceleration of the previous link, because the
+      joints before this joint also move the link
+    nothing-added-outwards: your code resets V and A at every link. Accumulate both
+      along the arm
     gravity-at-every-link: your code adds gravity at the base and again at every link.
-      The recursion already propagates the acceleration of the base to every link
-    bracket-not-transposed 2: your wrench contains ad(V) instead of -ad(V)^T. Wrenches
-      transform with the transpose of ad(V)
-    gravity-at-every-link 2: your code adds gravity again at every link. The recursion
-      already propagates the acceleration of the base to every link
+      Add gravity only at the base, because the recursion propagates this acceleration
+      to every link
+    bracket-not-transposed 2: your wrench contains ad(V) G V. Use -ad(V)^T G V instead,
+      because wrenches transform with the transpose of ad(V)
+    gravity-at-every-link 2: your code adds gravity again at every link. Add gravity
+      only at the base, because the recursion propagates this acceleration to every link
     """
     up = lift(g)
     others = {

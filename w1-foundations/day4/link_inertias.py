@@ -47,17 +47,17 @@ def _(T_links, masses, coms, inertias):
     """com-in-link-axes: your code uses the centre of mass in the link frame. Transform
       the centre of mass to the world frame with T
     com-turned-back: your code rotates the centre of mass with R^T, which rotates from
-      the world frame to the link frame
+      the world frame to the link frame. Use R instead
     com-seen-from-the-link: your code transforms the centre of mass with the inverse of
-      T, but T maps the link frame to the world frame
+      T. Use T itself, which maps link coordinates to world coordinates
     inertia-not-turned: your inertia about the centre of mass is still expressed in the
       link frame. Rotate the inertia to the world frame
-    inertia-turned-back: your code multiplies the inertia by R^T from the left and by R
-      from the right, but R^T rotates from the world frame to the link frame
-    inertia-diagonal: your code uses only the diagonal of each inertia matrix, but the
-      axes of the link frame are in general not the principal axes
-    R-transposed: your code transposes R for the centre of mass and for the inertia, but
-      R^T rotates from the world frame to the link frame
+    inertia-turned-back: your code computes R^T I R. Compute R I R^T instead, which
+      expresses the inertia in the world frame
+    inertia-diagonal: your code uses only the diagonal of each inertia matrix. Use all
+      entries, because the axes of the link frame are in general not the principal axes
+    R-transposed: your code transposes R for the centre of mass and for the inertia. Use
+      R itself, which rotates from the link frame to the world frame
     """
 
     def back(R, I):
@@ -79,18 +79,18 @@ def _(T_links, masses, coms, inertias):
 @row.wrongs
 def _(T_links, masses, coms, inertias):
     """left-in-link-axes: your code does not use T_links, so each matrix is expressed in
-      its link frame
-    adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. The matrix G maps a twist
-      to a momentum, so the factor to the right of G should map a twist from the world
-      frame to the link frame
+      its link frame. Transform each matrix to the world frame
+    adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. The factor to the right of
+      G should map a twist from the world frame to the link frame. The factor to the
+      left of G should be its transpose
     origin-for-com: your code places the mass at the link's origin. Place the mass at
       the centre of mass
-    poses-multiplied: your code multiplies the poses along the arm, but each pose in
-      T_links is already relative to the world
+    poses-multiplied: your code multiplies the poses along the arm. Use each pose
+      unchanged, because the poses in T_links are already relative to the world
     last-link-for-all: all seven of your matrices belong to link7. Does your loop
       overwrite one array and append it for every link? Create a new array each time
-    already-summed: each of your matrices also includes the links after its own link.
-      Each matrix should belong to one link
+    already-summed: your code adds the inertias of the links after each link to its
+      matrix. Each matrix should contain only the inertia of one link
     """
 
     def placed(T, c=coms):
@@ -110,8 +110,8 @@ def _(T_links, masses, coms, inertias):
 
 @row.wrong
 def pose_of_the_link_before(T_links, *body):
-    """your code uses the pose of the previous link for each link. T_links[0] belongs to
-    link1"""
+    """your code uses the pose of the previous link for each link. The pose of link1 is
+    T_links[0], so use T_links[i] for matrix i"""
     return link_inertias([np.eye(4), *T_links[:-1]], *body)
 
 

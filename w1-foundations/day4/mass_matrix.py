@@ -28,8 +28,8 @@ def links(J, G, counts):
 
 @row.wrongs
 def _(J, G, armature):
-    """armature-per-link: your code adds the armature once per link, but each rotor
-      contributes only once
+    """armature-per-link: your code adds the armature once per link. Add the armature
+      only once, because each rotor contributes only once
     mirrored-with-the-diagonal: your code adds a triangle of M and its transpose, which
       doubles the diagonal. Mirror only the off-diagonal entries
     """
@@ -41,16 +41,19 @@ def _(J, G, armature):
 
 
 def cut(J, G, armature):
-    """columns-not-cut: your Jacobian of each link contains all columns, but the joints
-      after a link do not move this link
-    own-joint-left-out: your Jacobian of each link lacks the column of the link's own
-      joint, but this joint also moves the link
-    next-joint-too: your Jacobian of each link contains one column too many, because the
-      next joint does not move the link
-    columns-cut-on-the-wrong-side: your Jacobian of each link lacks the columns of the
-      joints before the link, but these joints move the link
-    own-joint-only: your Jacobian of each link contains only the column of the link's
-      own joint, but all joints before this joint also move the link
+    """columns-not-cut: your code uses all columns of J_space for each link. Set the
+      columns of the joints after the link to 0, because these joints do not move the
+      link
+    own-joint-left-out: your code omits the column of the link's own joint in each
+      link's Jacobian. Include this column, because this joint also moves the link
+    next-joint-too: your code includes the column of the next joint in each link's
+      Jacobian. Omit this column, because this joint does not move the link
+    columns-cut-on-the-wrong-side: your code uses the columns of the link's own joint
+      and of the joints after it for each link. Use the columns of this joint and of the
+      joints before it instead
+    own-joint-only: your code uses only the column of the link's own joint in each
+      link's Jacobian. Include the columns of all joints before this joint, because they
+      also move the link
     """
     joint = np.arange(7)
     link = np.arange(7)[:, None]
@@ -70,14 +73,14 @@ row.wrongs(cut)
 @row.wrongs
 def _(J, G, armature):
     """corners-swapped: your code uses the off-diagonal blocks of G with the wrong sign.
-      M is still symmetric and positive definite, so these two properties do not show
-      the mistake
-    corners-dropped: your code adds the rotational and translational parts separately
-      and omits the off-diagonal blocks of G, which couple the two parts
-    angular-half-only: your code uses only the angular half of J_space, but the links'
-      linear velocities also contribute
-    linear-half-only: your code uses only the linear half of J_space and the masses, but
-      a rotating link also has rotational energy
+      Your M is still symmetric and positive definite, so these two properties do not
+      show the mistake
+    corners-dropped: your code adds the rotational and translational parts separately.
+      Include the off-diagonal blocks of G as well, because they couple the two parts
+    angular-half-only: your code uses only the angular half of J_space. Use all six
+      rows, because the links' linear velocities also contribute
+    linear-half-only: your code uses only the linear half of J_space and the masses. Use
+      all six rows and all of G, because a rotating link also has rotational energy
     """
     flip = np.diag([1, 1, 1, -1, -1, -1])
     upper = np.array([1, 1, 1, 0, 0, 0])[:, None]
@@ -92,8 +95,8 @@ def _(J, G, armature):
 
 @row.wrong
 def not_summed_back(J, G, armature):
-    """each entry of your M includes only one link, but a joint moves all links after
-    it"""
+    """your code includes only one link in each entry of M. Sum over all links that both
+    joints move"""
     M = np.diag(armature)
     for i in range(7):
         for j in range(7):

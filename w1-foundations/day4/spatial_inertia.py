@@ -31,12 +31,12 @@ def _(m, c, I):
     """parallel-axis-sign: the parallel-axis term of your upper left block has the wrong
       sign. The term is m [c] [c]^T, which equals -m [c] [c], because [c] is
       skew-symmetric
-    outer-product-for-skew: your upper left block contains c c^T instead of [c] [c]^T.
-      The moment of inertia about an axis depends on the distance from the axis, not on
-      the coordinate along the axis
-    distance-in-all-directions: your upper left block uses |c|^2 for all three axes, but
-      only the distance from an axis contributes to the moment of inertia about this
-      axis
+    outer-product-for-skew: your upper left block contains m c c^T instead of m [c]
+      [c]^T. The moment of inertia about an axis depends on the distance from the axis,
+      not on the coordinate along the axis
+    distance-in-all-directions: your upper left block uses |c|^2 for all three axes. Use
+      m [c] [c]^T instead, because only the distance from an axis contributes to the
+      moment of inertia about this axis
     products-of-inertia-sign: your code negates the off-diagonal entries of the inertia.
       The argument `inertia` is already the inertia matrix, so use all entries unchanged
     """
@@ -54,24 +54,26 @@ def _(m, c, I):
 
 @row.wrongs
 def _(m, c, I):
-    """about-the-centre-of-mass: your code does not use c, so the matrix is about the
-      centre of mass. The matrix about the origin contains c in three of its four blocks
+    """about-the-centre-of-mass: your code does not use c, so the result is the inertia
+      about the centre of mass. The inertia about the origin contains c in three of its
+      four blocks
     corners-alike: your two off-diagonal blocks are equal. The matrix is symmetric, so
       one block should be the transpose of the other
     corners-alike 2: your two off-diagonal blocks are equal. The matrix is symmetric, so
       one block should be the transpose of the other
-    corners-swapped: your code swaps the two off-diagonal blocks. The matrix is still
-      symmetric and positive definite, but the momentum has the wrong direction
-    corners-empty: your two off-diagonal blocks are 0. These blocks couple rotation and
-      translation, and they are 0 only about the centre of mass
+    corners-swapped: your code swaps the two off-diagonal blocks. The upper right block
+      should be m [c], and the lower left block should be m [c]^T
+    corners-empty: your two off-diagonal blocks are 0, which is correct only about the
+      centre of mass. The blocks should be m [c] and m [c]^T, because they couple
+      rotation and translation
     one-corner-empty: one of your two off-diagonal blocks is 0. The matrix is symmetric,
       so each off-diagonal block should be the transpose of the other
     mass-forgotten-in-the-corners: your two off-diagonal blocks contain [c] without the
       mass. Both blocks should also contain the mass
     mass-everywhere: your lower right block has the mass in all nine entries. Only the
       diagonal should contain the mass
-    blocks-v-omega: your blocks are in the order (v; omega), but omega comes first, as
-      in the Jacobian
+    blocks-v-omega: your blocks are in the order (v; omega). The block of omega should
+      come first, as in the Jacobian
     """
     C = skew(c)
     M = m * ONE

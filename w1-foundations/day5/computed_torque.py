@@ -37,31 +37,31 @@ def _(rng):
 
 @row.wrongs
 def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """gains-outside-M: your code adds the PD terms after the product with M. The arm
-      still tracks well, but joints with different inertias respond differently, and
-      errors do not decay as designed
-    damping-forgotten: your code omits the damping torque. The argument `bias` does not
-      contain this torque, because MuJoCo treats damping as a passive force
+    """gains-outside-M: your code adds the PD terms after the product with M. Multiply
+      these terms by M too, because otherwise joints with different inertias respond
+      differently
+    damping-forgotten: your code omits the damping torque. Add `damping` * qd, because
+      `bias` does not contain this torque
     friction-of-the-error: your code multiplies `damping` by ed. Multiply `damping` by
-      the measured velocity qd
-    friction-of-the-reference: your code multiplies `damping` by qd + ed, the velocity
-      of the reference. Multiply `damping` by the measured velocity qd
+      the measured velocity qd instead
+    friction-of-the-reference: your code multiplies `damping` by qd + ed, which is the
+      velocity of the reference. Multiply `damping` by the measured velocity qd instead
     M-forgotten: your code omits M and adds an acceleration to torques. Multiply the
       acceleration by M
     bias-forgotten: your code omits `bias`, so the PD terms have to balance gravity and
-      the Coriolis torque
-    bias-sign: your bias term has the wrong sign. The argument `bias` is the torque that
-      the motors must supply
-    everything-through-M: your code multiplies `bias` and the damping torque by M, but
-      both are already torques
-    reference-outside-M: your code adds qdd_ref after the product with M, but qdd_ref is
-      an acceleration. Multiply qdd_ref by M
+      the Coriolis torque. Add `bias` to the torque
+    bias-sign: your code subtracts `bias`. Add `bias` instead, because the motors must
+      supply this torque even at zero acceleration
+    everything-through-M: your code multiplies `bias` and the damping torque by M. Add
+      both after the product with M, because both are already torques
+    reference-outside-M: your code adds qdd_ref after the product with M. Multiply
+      qdd_ref by M too, because it is an acceleration
     measured-velocity-damped: your derivative term is -kd qd, so your controller also
-      brakes the desired motion. Use kd ed
-    armature-twice: your code adds the armature, 0.1 kg m2, to M, but M already contains
-      the armature
-    bias-alone-at-the-goal: where e is 0, your code returns only `bias`, but the arm may
-      still be moving. Use the same formula everywhere
+      brakes the desired motion. Use kd ed instead
+    armature-twice: your code adds the armature, 0.1 kg m2, to M. Use M unchanged,
+      because M already contains the armature
+    bias-alone-at-the-goal: your code returns only `bias` if e is 0. Use the same
+      formula for every e, because the arm may still be moving
     """
     rub = damping * qd
     springs = kd * ed + kp * e

@@ -73,17 +73,18 @@ def _(rng):
 @row.wrongs
 def _(t, omega, zeta):
     """one-formula-for-all: your code uses the formula for zeta = 1 for every zeta, with
-      zeta omega instead of omega. For zeta below 1 the error should oscillate, and for
-      zeta above 1 the error is a sum of two exponentials
-    envelope-alone: your curve is only the envelope e^(-zeta omega t). The error should
-      start at rest, but this curve starts with a nonzero derivative
-    envelope-of-omega: your curve is e^(-omega t) for every zeta. The error should start
-      at rest, but this curve starts with a nonzero derivative
+      zeta omega instead of omega. For zeta below 1, the error should oscillate. For
+      zeta above 1, the error should be a sum of two exponentials
+    envelope-alone: your curve is only the envelope e^(-zeta omega t). The derivative of
+      the error should be 0 at t = 0, but the derivative of the envelope is not
+    envelope-of-omega: your curve is e^(-omega t) for every zeta. The derivative of the
+      error should be 0 at t = 0, but the derivative of this curve is -omega
     half-the-damping: your curve belongs to half the damping ratio. In the error
       equation, the first derivative of the error has the factor 2 zeta omega
     output-in-place-of-error: your curve rises from 0 to 1, as the step response of the
-      joint does. The error is 1 minus the step response
-    omega-in-turns: your code multiplies omega by 2 pi, but omega is already in rad/s
+      joint does. Return the error, which is 1 minus the step response
+    omega-in-turns: your code multiplies omega by 2 pi. Use omega unchanged, because it
+      is already in rad/s
     """
     return {
         "one-formula-for-all": (1 + zeta * omega * t) * np.exp(-zeta * omega * t),
@@ -114,17 +115,17 @@ def _(t, omega, zeta):
 
 @row.wrongs
 def _(t, omega, zeta):
-    """slow-exponential-alone: for zeta above 1 your code uses only the slow
-      exponential, so the error does not start at rest
-    both-halves: for zeta above 1 both of your exponentials have the weight 1/2, so the
-      error does not start at rest
-    weights-swapped: for zeta above 1 the weights of your two exponentials are swapped,
-      so the error does not start at rest
-    weights-summed: for zeta above 1 your error does not start at rest. In the formula
+    """slow-exponential-alone: your code uses only the slow exponential for zeta above
+      1. Use both exponentials, so that the derivative of the error is 0 at t = 0
+    both-halves: both of your exponentials have the weight 1/2 for zeta above 1. Choose
+      the two weights so that the derivative of the error is 0 at t = 0
+    weights-swapped: the weights of your two exponentials are swapped for zeta above 1.
+      The slow exponential should have the larger weight
+    weights-summed: your error does not start at rest for zeta above 1. In the formula
       with two exponentials, subtract both the terms and the rates instead of adding
       them. In the formula with cosh and sinh, your factor of sinh is inverted
-    critical-above-one: for zeta above 1 your code returns the curve for zeta = 1, but
-      the decay should be slower for a larger zeta
+    critical-above-one: your code returns the curve for zeta = 1 for every zeta above 1.
+      The error should decay more slowly for a larger zeta
     """
     above = zeta if zeta > 1.0 else 2.0  # below, the library answers
     half_gap = omega * np.sqrt(above**2 - 1.0)

@@ -26,16 +26,16 @@ def _(rng):
 
 @row.wrongs
 def _(e, ed, kp, kd, g_at_q):
-    """gravity-sign: your gravity torque has the wrong sign. The argument `g_at_q` is
-      the torque that the motors must supply to hold the arm
-    gravity-through-the-gain: your code multiplies the gravity torque by kp, but gains
-      apply only to errors. Add the gravity torque to the PD torque
-    gravity-at-the-goal-only: your code returns only the gravity torque where e is 0,
-      and only the PD torque elsewhere. Always return the sum of both torques
-    gravity-at-rest-only: your code adds the gravity torque only where ed is 0, but
-      gravity also acts on a moving arm
-    nothing-at-the-goal: your result is 0 where e is 0, but the motors must also support
-      the weight of the arm at the goal
+    """gravity-sign: your code subtracts `g_at_q`. Add `g_at_q` instead, because the
+      motors must supply this torque to hold the arm
+    gravity-through-the-gain: your code multiplies the gravity torque by kp. Add the
+      gravity torque to the PD torque unchanged, because gains apply only to errors
+    gravity-at-the-goal-only: your code returns only the gravity torque if e is 0, and
+      only the PD torque otherwise. Always return the sum of both torques
+    gravity-at-rest-only: your code adds the gravity torque only where ed is 0. Always
+      add this torque, because gravity also acts on a moving arm
+    nothing-at-the-goal: your result is 0 if e is 0. Use the same formula for every e,
+      because the motors must also support the weight of the arm at the goal
     """
     springs = kp * e + kd * ed
     away = np.any(e)

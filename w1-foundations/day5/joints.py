@@ -15,9 +15,9 @@ BEYOND = 3.7 * np.array([1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0])  # half a turn
 def one_gain(inputs, gains="each of kp and kd", lab="KP and KD"):
     """Return the question whether a right function also takes one number as a gain."""
     says = (
-        f"Your function is correct if {gains} has 7 entries, but it fails or is wrong "
+        f"Your function is correct if {gains} has 7 entries. It fails or is wrong "
         f"for a single number, as in the lab's {lab}. Which multiplication operator "
-        f"accepts arrays and single numbers?"
+        "accepts arrays and single numbers?"
     )
     return HeldOut("one-number-as-gain", says, inputs)
 
@@ -29,8 +29,8 @@ def wrapped(angle):
 
 WRAPPED = Change(
     "error-wrapped",
-    "your code wraps {name} to [-pi, pi]. These joints have limits, so e and e + 2 pi "
-    "are different errors",
+    "your code wraps {name} to [-pi, pi]. Use {name} unchanged, because e and e + 2 "
+    "pi are different errors of a joint with limits",
     wrapped,
     hidden="no error there exceeds half a turn",
 )

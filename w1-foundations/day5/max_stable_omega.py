@@ -16,14 +16,15 @@ def _(rng):
 @row.wrongs
 def _(h):
     """undamped-limit: your result 2 / h is the stability limit of a spring without
-      damping. With critical damping the limit is lower, because the damping torque acts
-      one step late
+      damping. With critical damping, the limit is lower, because the damping torque
+      acts one step late
     one-over-h: your result 1 / h is a rule of thumb. Find the omega at which the step
-      matrix has the eigenvalue -1
-    larger-root: your result is the larger root of the quadratic equation, but the loop
-      already becomes unstable at the smaller root
-    nyquist: your result pi / h is the Nyquist frequency. The Nyquist frequency limits
-      which signals can be sampled, not which loop is stable
+      matrix has the eigenvalue -1 instead
+    larger-root: your result is the larger root of the quadratic equation. Return the
+      smaller root, because the loop already becomes unstable at this root
+    nyquist: your result pi / h is the Nyquist frequency, which limits the signals that
+      can be sampled. Find the omega at which the step matrix has the eigenvalue -1
+      instead
     in-hertz: your result is in Hz. The function should return rad/s
     """
     return {

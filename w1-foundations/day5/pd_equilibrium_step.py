@@ -31,10 +31,10 @@ def _(rng):
 
 @row.wrongs
 def _(q_goal, g_at_q, kp):
-    """sag-in-degrees: your code converts the steady-state error to degrees, but the
-      goal is in radians
-    answer-wrapped: your code wraps the angle to [-pi, pi]. The joints have limits, so q
-      and q + 2 pi are different configurations, and joint6 can move beyond pi
+    """sag-in-degrees: your code converts the steady-state error to degrees. Use
+      radians, because the goal is in radians
+    answer-wrapped: your code wraps the angle to [-pi, pi]. Return the angle unchanged,
+      because q and q + 2 pi are different configurations of a joint with limits
     """
     return {
         "sag-in-degrees": q_goal - np.rad2deg(g_at_q / kp),

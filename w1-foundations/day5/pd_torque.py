@@ -12,11 +12,11 @@ row.inputs(springs)
 
 @row.wrongs
 def _(e, ed, kp, kd):
-    """one-gain-for-all: all joints in your code use the gains of the first joint. Each
-      joint has its own gains
+    """one-gain-for-all: your code uses the gains of the first joint for all joints. Use
+      each joint's own gains
     summed-over-joints: your expression `kp @ e` is a dot product, which sums over the
       joints. Multiply entry by entry, because each joint has its own torque
-    mean-gains: all joints in your code use the mean of the gains. Each joint has its
+    mean-gains: your code uses the mean of the gains for all joints. Use each joint's
       own gains
     """
     return {

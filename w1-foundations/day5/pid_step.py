@@ -92,7 +92,7 @@ def _(e, ed, integral, ki, dt, clamp):
     step-clamped: your code clamps only e dt, so the integral can still grow without
       bound. Clamp the integral after the addition of e dt
     frozen-at-the-limit: your code keeps the old integral if the new integral exceeds
-      the limit. Clamp the new integral to the limit
+      the limit. Clamp the new integral to the limit instead
     emptied-at-the-limit: your code resets the integral to 0 if the integral exceeds the
       limit. Clamp the integral to the limit instead
     clamped-on-one-side: your code clamps the integral only at the upper limit. Clamp
@@ -102,13 +102,13 @@ def _(e, ed, integral, ki, dt, clamp):
     never-negative: your code clamps the integral to the range from 0 to `clamp`. The
       lower limit should be -clamp
     clamped-as-a-vector: your code limits the norm of the integral to `clamp`. Clamp
-      each joint's integral separately
-    term-clamped: your code clamps ki times the integral, but the argument `clamp` is
-      the limit of the integral itself
+      each joint's integral separately instead
+    term-clamped: your code clamps ki times the integral. Clamp the integral itself,
+      because the argument `clamp` is the limit of the integral
     old-sum-clamped 2: your code clamps the old integral and e dt separately. Clamp
-      their sum
-    frozen-at-the-limit 2: in your code, an integral at its limit never changes again.
-      An error of the opposite sign should reduce the integral
+      their sum instead
+    frozen-at-the-limit 2: your code never changes an integral that is at its limit. An
+      error of the opposite sign should reduce this integral
     """
     step = e * dt
     new = integral + e * dt
@@ -135,16 +135,18 @@ def _(e, ed, integral, ki, dt, clamp):
 @row.wrongs
 def _(e, ed, integral, kp, kd, ki, dt, clamp):
     """clamped-too-late: your acceleration uses the integral before it is clamped. Use
-      the clamped integral
-    bound-not-handed-back: your acceleration uses the clamped integral, but your code
-      returns the unclamped integral, which can grow without bound
+      the clamped integral instead
+    bound-not-handed-back: your code uses the clamped integral in the acceleration, but
+      it returns the unclamped integral. Return the clamped integral too, so that the
+      integral cannot grow without bound
     old-integral-used: your acceleration uses the integral of the previous step. Update
       the integral first
     old-integral-kept: your code returns the old integral. Return the updated integral
-    this-step-alone-used: your code multiplies only the current e dt by ki, but the
-      acceleration needs the whole integral
+      instead
+    this-step-alone-used: your code multiplies only the current e dt by ki. Multiply the
+      whole integral by ki
     ki-in-the-integral: your integral already contains ki, so `clamp` no longer limits
-      the integral of the error
+      the integral of the error. Multiply the integral by ki only in the acceleration
     term-handed-back: your code returns ki times the integral. Return the integral
       itself
     swapped: your code swaps the two outputs. The acceleration should be first

@@ -28,14 +28,16 @@ def _(tau, limits):
       at the lower limit too
     below-only: your code clamps torques only at the lower limit. Clamp the torques at
       the upper limit too
-    sign-lost: in your code, a negative torque beyond its limit becomes positive. Clamp
-      this torque to minus the limit
-    limits-typed-in: your code uses the constants 87 and 12 N m, the limits of the
-      Panda. Use the argument `limits`, because another arm has other limits
-    smallest-limit-for-all: all joints in your code use the smallest limit, but each
-      motor has its own limit
-    all-scaled-down: in your code, one motor at its limit scales all seven torques down,
-      but the other motors can still supply their full torques
+    sign-lost: your code replaces a negative torque beyond its limit with the positive
+      limit. Clamp this torque to minus the limit
+    limits-typed-in: your code uses the constants 87 and 12 N m, which are the limits of
+      the Panda's motors. Use the argument `limits`, because another arm has other
+      limits
+    smallest-limit-for-all: your code uses the smallest limit for all joints. Use each
+      motor's own limit
+    all-scaled-down: your code scales all seven torques down if one torque exceeds its
+      limit. Clamp only this torque, because the other motors can still supply their
+      full torques
     length-bounded: your code compares the norm of the torque vector with the limits.
       Compare each torque with its own limit
     """
@@ -53,24 +55,25 @@ def _(tau, limits):
 
 @row.wrongs
 def _(tau, limits):
-    """switched-off: in your code, a torque beyond its limit becomes 0, but the motor
-      can still supply its maximum torque
+    """switched-off: your code sets a torque beyond its limit to 0. Clamp this torque to
+      its limit, because the motor can still supply its maximum torque
     the-larger-one: your code returns the torque or its limit, whichever is larger in
       magnitude. Use the smaller magnitude with the sign of the torque
-    always-full: in your code, every torque becomes plus or minus its limit. A torque
+    always-full: your code replaces every torque with plus or minus its limit. A torque
       within the limits should not change
-    one-over-stops-all: in your code, one torque beyond its limit makes all seven
-      torques 0, but the other motors can still supply their torques
+    one-over-stops-all: your code sets all seven torques to 0 if one torque exceeds its
+      limit. Clamp only this torque, because the other motors can still supply their
+      torques
     nothing-within-the-limits: your result is 0 if all torques are within their limits.
       Torques within their limits should not change
     first-limit-typed-in: your code uses the limit 87 N m for all joints. Use each
       motor's own entry in `limits`
-    all-positive: in your code, all torques become positive, but a motor can act in both
-      directions
-    rounded-off: your code returns limits * tanh(tau / limits), a smooth saturation. A
-      torque within the limits should not change
-    first-joint-only: your code clamps only the torque of joint1, but every motor has a
-      limit
+    all-positive: your code makes all torques positive. Keep the sign of each torque,
+      because a motor can act in both directions
+    rounded-off: your code returns limits * tanh(tau / limits), which is a smooth
+      saturation. A torque within the limits should not change
+    first-joint-only: your code clamps only the torque of joint1. Clamp all seven
+      torques, because every motor has a limit
     """
     right = np.clip(tau, -limits, limits)
     over = np.abs(tau) > limits

@@ -53,35 +53,37 @@ def bias(
 
 @row.wrongs
 def _(J_space, qd, p):
-    """of-the-origin: your code returns the rate of change of the twist, the sum of
-      ad(V) S qd. The linear part of this sum belongs to the world origin and has to be
-      converted to the point p
-    no-centripetal: your code omits the term omega x (velocity of p), but a point on a
-      circle accelerates towards the centre even at constant speed
-    no-alpha-cross-p: your code omits the term alpha x p, so the linear acceleration
-      belongs to the world origin and not to p
-    velocity-of-origin: your code uses omega x v, where v is the velocity of the body
-      point at the world origin. The point p has the velocity v + omega x p
-    v-forgotten: your code computes the velocity of p as omega x p. This velocity should
-      also contain v
-    coriolis-twice: your code adds omega x v twice, but ad(V) S already contains this
-      term once. The form 2 omega x v belongs to accelerations measured in a rotating
+    """of-the-origin: your code returns only the sum of ad(V) S qd, whose linear part
+      belongs to the world origin. Convert this linear part to the point p
+    no-centripetal: your code omits the term omega x (velocity of p). This term is
+      needed because a point on a circle accelerates towards the centre even at constant
+      speed
+    no-alpha-cross-p: your code omits the term alpha x p. This term is needed because
+      the linear part of the sum of ad(V) S qd belongs to the world origin and not to p
+    velocity-of-origin: your code uses omega x v, where v is the velocity of the
+      body-fixed point that coincides with the world origin. Use the velocity of the
+      point p instead, which is v + omega x p
+    v-forgotten: your code uses omega x p as the velocity of p. Use v + omega x p
+      instead
+    coriolis-twice: your code adds omega x v twice. Add this term only once, because the
+      factor 2 belongs to the Coriolis acceleration in a rotating frame
+    centripetal-twice: your code adds omega x (velocity of p) twice. Add this term only
+      once, because the factor 2 belongs to the Coriolis acceleration in a rotating
       frame
-    centripetal-twice: your code adds omega x (velocity of p) twice, but the factor 2
-      belongs to the Coriolis acceleration in a rotating frame
     p-sign: your code swaps the two factors of each cross product with p, which reverses
-      the sign of the product
+      its sign. Use alpha x p and omega x p instead
     ad-swapped: either your code swaps V and S in ad(V) S, or it sums the twists from
-      the tip instead of the base. Both mistakes reverse the sign
-    ad-transposed: your code transposes ad(V). The transpose belongs to wrenches, but
-      screws need ad(V) itself
-    ad-half: your ad(V) lacks its lower left block [v], but the linear velocity changes
-      the linear half of a twist
-    twist-of-the-hand: every joint in your code uses the twist of the hand, so your sum
-      is ad(V) V, which is 0. Joint i should use the twist of link i, which depends only
-      on joints 1 to i
-    qd-once: your code does not multiply each screw by the velocity of its joint. The
-      sum should contain ad(V) S qd
+      the tip instead of the base. Both mistakes reverse the sign of the sum of ad(V) S
+      qd
+    ad-transposed: your code uses ad(V)^T, which transforms wrenches. Use ad(V) itself,
+      which transforms screws
+    ad-half: the lower left block of your ad(V) is 0. This block should be [v], because
+      it adds v x omega2 to the linear part of the result for a screw (omega2; v2)
+    twist-of-the-hand: your code uses the twist of the hand for every joint, so your sum
+      is ad(V) V, which is 0. Use the twist of link i for joint i, which depends only on
+      joints 1 to i
+    qd-once: your code does not multiply each screw by the velocity of its joint. Sum
+      ad(V) S qd instead of ad(V) S
     """
     changed = {
         "of-the-origin": {"turn": 0.0, "centre": 0.0, "move": 0.0},

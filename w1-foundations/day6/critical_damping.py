@@ -41,27 +41,29 @@ def by_modes(K, L):
 
 @row.wrongs
 def _(K, Lambda):
-    """Lambda-ignored: your code does not use `Lambda`. The result 2 sqrt(K) is the
-      critical damping of a unit mass
+    """Lambda-ignored: your result is 2 sqrt(K), which is the critical damping of a unit
+      mass. Use the argument `Lambda` as well
     another-design: your code returns another critically damped design, which
-      diagonalises Lambda and K together. The task requires the sum of the two products
-      of sqrt(Lambda) and sqrt(K)
-    diagonal-only: each axis in your code uses 2 sqrt(k m), with m from the diagonal of
-      Lambda, but Lambda couples the axes
-    one-order-only: your code adds the same product of the two roots twice. Add the
-      products in both orders, so that the result is symmetric
-    half-of-it: your code uses only one of the two products. Add the product with the
-      factors in the opposite order
+      diagonalises Lambda and K together. Return the sum of the two products of
+      sqrt(Lambda) and sqrt(K) instead
+    diagonal-only: your code uses 2 sqrt(k m) for each axis, with m from the diagonal of
+      Lambda. Use the matrix square root of Lambda instead, because Lambda couples the
+      axes
+    one-order-only: your code adds the same product of sqrt(Lambda) and sqrt(K) twice.
+      Add the products in both orders, so that the result is symmetric
+    half-of-it: your code uses only one of the two products of sqrt(Lambda) and sqrt(K).
+      Add the product with the factors in the opposite order
     factor-two: your result contains an extra factor of 2. For single numbers k and m,
       the sum of the two products is already 2 sqrt(k m)
-    factor-two-missing: your code averages the two products instead of adding them
+    factor-two-missing: your code averages the two products of sqrt(Lambda) and sqrt(K).
+      Add these products instead
     root-on-both-sides: your code has sqrt(Lambda) on both sides of sqrt(K), so the
       result is proportional to the mass. The result should be proportional to the
       square root of the mass
     root-of-the-product: your code computes 2 sqrt(K Lambda) entry by entry. Use the
-      matrix square root of Lambda
-    cholesky: your code uses a Cholesky factor L instead of the matrix square root, but
-      Lambda equals L L^T, not L L
+      matrix square root of Lambda instead
+    cholesky: your code uses a Cholesky factor L, which satisfies L L^T = Lambda. Use
+      the matrix square root X instead, which satisfies X X = Lambda
     """
     k = np.sqrt(K)
     half = root(Lambda)
@@ -82,16 +84,18 @@ def _(K, Lambda):
 
 @row.wrongs
 def _(K, Lambda):
-    """entries-square-rooted: your code uses np.sqrt, which takes the root of each entry
-      of Lambda, but the matrix square root X satisfies X X = Lambda
+    """entries-square-rooted: your code uses np.sqrt, which takes the square root of
+      each entry of Lambda. Use the matrix square root X instead, which satisfies X X =
+      Lambda
     eigenvectors-transposed: your code transposes the eigenvectors. The columns of V are
       the eigenvectors, so the square root is V diag(sqrt(values)) V^T
     eigenvalues-not-rooted-back: your square root diag(sqrt(values)) is expressed in the
       basis of the eigenvectors. Transform the square root back with V
-    cholesky: your code uses a Cholesky factor L instead of the matrix square root, but
-      Lambda equals L L^T, not L L
-    entries-square-rooted 2: your code takes the root of the absolute value of each
-      entry, but the matrix square root X satisfies X X = Lambda
+    cholesky: your code uses a Cholesky factor L, which satisfies L L^T = Lambda. Use
+      the matrix square root X instead, which satisfies X X = Lambda
+    entries-square-rooted 2: your code takes the square root of the absolute value of
+      each entry of Lambda. Use the matrix square root X instead, which satisfies X X =
+      Lambda
     eigenvectors-transposed 2: your code omits the last transpose. The square root is V
       diag(sqrt(values)) V^T
     """

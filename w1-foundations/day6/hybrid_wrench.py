@@ -39,13 +39,14 @@ def _(e, V_err, K, D, force):
     moment-in-place-of-force: your code replaces entry 2, which is the moment about z.
       The last three entries are the force, so the force along z is entry 5
     spring-everywhere: your code does not use the argument `force`, so the result is the
-      impedance wrench in all six directions
+      impedance wrench in all six directions. Replace the spring force along z with
+      -force
     along-x: your force acts along x. The force should act along z
-    spring-couples-into-z: in your code, the off-diagonal entries of K still produce a
-      force along z from the other five errors. Remove the whole spring force along z
+    spring-couples-into-z: your code removes only the spring force of the error along z.
+      The other five errors also produce a spring force along z, so remove the whole
+      last entry of K e
     column-in-place-of-row: your code sets the error along z to 0, which removes the
-      last column of K. Remove the spring force along z instead, which comes from the
-      last row of K
+      last column of K. Remove the spring force along z instead, which is K[5] @ e
     """
     spring, damper = K @ e, D @ V_err
     both = spring + damper
@@ -64,9 +65,9 @@ def _(e, V_err, K, D, force):
 
 @row.wrongs
 def _(e, V_err, K, D, force):
-    """moment-in-place-of-force: your code writes the force to entry 2, the moment about
-      z, and omits the damping term of this entry. The last three entries are the force,
-      so the force along z is entry 5
+    """moment-in-place-of-force: your code writes the force to entry 2, which is the
+      moment about z, and omits the damping term of this entry. The last three entries
+      are the force, so the force along z is entry 5
     column-in-place-of-row: your code removes the last row and the last column of K. An
       error along z should still contribute to the other five directions
     """

@@ -30,15 +30,15 @@ def _(rng):
 @row.wrongs
 def _(J, wrench, bias, damping, qd, tau_null):
     """damping-summed: your expression `damping @ qd` is a dot product, which sums over
-      the joints. Multiply entry by entry
-    bias-sign: your bias term has the wrong sign. The argument `bias` is the torque that
-      the motors must supply
-    damping-sign: your damping torque has the wrong sign. Damping opposes the motion, so
-      the motors must supply the torque `damping` times qd
+      the joints. Multiply entry by entry instead
+    bias-sign: your code subtracts `bias`. Add `bias` instead, because the motors must
+      supply this torque even at zero acceleration
+    damping-sign: your code subtracts the damping torque. Add `damping` * qd instead,
+      because damping opposes the motion and the motors must supply this torque
     bias-six-times: your code adds `bias` once for each of the six rows of J. Add `bias`
       only once
-    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T,
-      because J^T maps wrenches to torques
+    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T
+      instead, because J^T maps wrenches to torques
     """
     push = J.T @ wrench
     rub = damping * qd

@@ -28,18 +28,19 @@ def _(rng):
 
 @row.wrongs
 def _(J, Lambda, bias, bias_acc, acc):
-    """bias-sign: your bias term has the wrong sign. The argument `bias` is the torque
-      that the motors must supply
-    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T,
-      because J^T maps wrenches to torques
-    site-bias-not-weighed: your code subtracts bias_acc after the product with Lambda,
-      but bias_acc is an acceleration. Subtract bias_acc from acc first
-    acc-sign: your code computes bias_acc - acc instead of acc - bias_acc, so the hand
-      accelerates in the opposite direction
-    force-alone: your code applies only the force and omits the moment. J^T has six
-      columns, and the first three belong to the moment
-    halves-swapped: your accelerations are in the order (linear; angular), but the
-      angular part comes first
+    """bias-sign: your code subtracts `bias`. Add `bias` instead, because the motors
+      must supply this torque even at zero acceleration
+    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T
+      instead, because J^T maps wrenches to torques
+    site-bias-not-weighed: your code subtracts bias_acc after the product with Lambda.
+      Subtract bias_acc from acc before this product, because bias_acc is an
+      acceleration
+    acc-sign: your code computes bias_acc - acc, so the hand accelerates in the opposite
+      direction. Compute acc - bias_acc instead
+    force-alone: your code applies only the force and omits the moment. Use all six
+      columns of J^T, because the first three belong to the moment
+    halves-swapped: your accelerations are in the order (linear; angular). The angular
+      part should come first
     bias-at-the-hand: your code adds J times `bias` to the wrench before the product
       with J^T. The argument `bias` is already a joint torque, so add it after this
       product

@@ -21,8 +21,8 @@ def damped(case: Case) -> Finding | None:
 
 
 DAMPED = (
-    "Your code adds a number to the diagonal of J M^-1 J^T before the inversion. This "
-    "keeps Lambda finite at a singularity but makes Lambda too small elsewhere."
+    "Your code adds a number to the diagonal of J M^-1 J^T before the inversion. "
+    "Omit this number, because it makes Lambda too small."
 )
 NEARLY_SINGULAR = HeldOut(
     "small-values-cut",
@@ -57,19 +57,19 @@ def _(J, M):
     M-not-inverted: your code uses J M J^T. Use M^-1 instead of M, because M^-1 maps the
       joint torques J^T F to joint accelerations
     pinv-both-sides: your result pinv(J)^T M pinv(J) is correct only for an arm with six
-      joints. With a seventh joint, the arm can also move internally, so the inertia at
-      the hand is smaller
+      joints. Invert J M^-1 J^T instead, because the seventh joint also allows internal
+      motions, which reduce the inertia at the hand
     armature-left-out: your code subtracts the armature (the rotor inertia of the
-      motors) from M, but the rotors rotate with the joints and contribute to the
-      inertia at the hand
-    armature-twice: your code adds the armature to M, but M already contains the
-      armature
+      motors) from M. Use M unchanged, because the rotors contribute to the inertia at
+      the hand
+    armature-twice: your code adds the armature to M. Use M unchanged, because M already
+      contains the armature
     diagonal-inverted: your code inverts only the diagonal of J M^-1 J^T. The six
       directions are coupled, so invert the whole matrix
-    entries-inverted: your code takes the reciprocal of each entry. Use the matrix
-      inverse
-    blocks-alone: your code inverts the two 3x3 blocks separately. A force also rotates
-      the hand, so invert the whole 6x6 matrix
+    entries-inverted: your code takes the reciprocal of each entry of J M^-1 J^T. Use
+      the matrix inverse instead
+    blocks-alone: your code inverts the two 3x3 diagonal blocks of J M^-1 J^T
+      separately. A force also rotates the hand, so invert the whole 6x6 matrix
     """
     A = J @ np.linalg.solve(M, J.T)
     back = np.linalg.pinv(J)

@@ -44,22 +44,23 @@ def whole(m1, c1, I1, m2, c2, I2, c, theorem=parallel_axes):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """no-parallel-axes: your code adds the two inertias unchanged. Each inertia is
-      about its own centre of mass, so move both inertias to the common centre first
-    about-the-origin: your inertia is about the origin of the frame. The inertia should
-      be about the common centre of mass
+    """no-parallel-axes: your code adds the two inertias unchanged. Move both inertias
+      to the common centre of mass first, because each inertia belongs to its own centre
+      of mass
+    about-the-origin: your code returns the inertia about the origin of the frame.
+      Return the inertia about the common centre of mass instead
     only-the-second-moved: your code moves only the second inertia to the common centre
       of mass. The first body's centre of mass also differs from the common centre, so
       move both inertias
     only-the-first-moved: your code moves only the first inertia to the common centre of
       mass. The second body's centre of mass also differs from the common centre, so
       move both inertias
-    about-the-first-centre: your inertia is about the first body's centre of mass. The
-      inertia should be about the common centre of mass
+    about-the-first-centre: your code returns the inertia about the first body's centre
+      of mass. Return the inertia about the common centre of mass instead
     distance-of-the-two: your parallel-axis theorem uses the distance between the two
       centres of mass. Use the distance of each centre of mass from the common centre
-    mass-not-in-the-theorem: your parallel-axis theorem lacks the mass of the body. The
-      theorem adds m ((d . d) E - d d^T), where E is the identity matrix
+    mass-not-in-the-theorem: your code omits the mass of the body in the parallel-axis
+      theorem. The theorem adds m ((d . d) E - d d^T), where E is the identity matrix
     total-mass-for-each: your parallel-axis theorem uses the total mass for each body.
       Use the mass of the body whose inertia is moved
     """
@@ -82,8 +83,8 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """products-not-moved: your parallel-axis theorem changes only the moments of
-      inertia, but the outer product d d^T also has off-diagonal entries
+    """products-not-moved: your parallel-axis theorem changes only the diagonal of each
+      inertia. Subtract the off-diagonal entries of m d d^T as well
     distance-not-squared: your parallel-axis theorem uses the distance itself. Use the
       squared distance d . d
     """
@@ -101,7 +102,8 @@ def _(m1, c1, I1, m2, c2, I2):
 def _(m1, c1, I1, m2, c2, I2):
     """plain-mean: your common centre is the midpoint of the two centres of mass. Weight
       each centre by the mass of its body
-    not-divided-by-the-mass: your code does not divide the sum of m c by the total mass
+    not-divided-by-the-mass: your code does not divide the sum of m c by the total mass.
+      The common centre of mass should be the weighted mean of c1 and c2
     first-centre-kept: your code sets the common centre of mass to c1. The common centre
       should be the mean of c1 and c2, weighted by the masses
     """
@@ -119,8 +121,8 @@ def _(m1, c1, I1, m2, c2, I2):
       The three diagonal entries should come first
     xy-last: your last three entries are in the order yz, xz, xy. The order should be
       xy, xz, yz
-    products-negated: your last three entries have the wrong sign. They should be
-      entries of the inertia matrix, so xy is the sum of -m x y
+    products-negated: your last three entries have the wrong sign. Use the entries of
+      the inertia matrix, in which xy is the sum of -m x y
     mass-of-the-first: your mass includes only the first body. Add the mass of the
       second body
     """

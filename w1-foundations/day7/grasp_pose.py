@@ -44,11 +44,13 @@ def _(T_world_cube, above):
     folded-to-90: your tool has a yaw between 0 and 90 degrees. The yaw should be
       between -45 and 45 degrees
     rounded-towards-zero: your code truncates the number of quarter turns, so a yaw of
-      up to 90 degrees remains. Round this number to the nearest integer
-    folded-by-half-turns: your code subtracts multiples of 180 degrees, but a cube
-      already looks the same after 90 degrees
+      up to 90 degrees remains. Round this number to the nearest integer instead
+    folded-by-half-turns: your code subtracts multiples of 180 degrees from the yaw.
+      Subtract multiples of 90 degrees instead, because a rotation by 90 degrees does
+      not change a cube
     yaw-forgotten: your tool always has the yaw 0, so the fingers meet the edges of a
-      rotated cube
+      rotated cube. Rotate the tool by the yaw of the cube, reduced to between -45 and
+      45 degrees
     turned-the-wrong-way: your tool rotates in the opposite direction to the cube. Check
       the sign of the yaw and the arguments of arctan2, then the order of the product
       with diag(1, -1, -1)

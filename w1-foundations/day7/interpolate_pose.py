@@ -58,21 +58,25 @@ def line(T0, T1, s, turn):
 @row.wrongs
 def _(T0, T1, s):
     """by-entries: your code interpolates the entries of R linearly, so the result
-      between the two ends is not a rotation matrix
-    entries-made-a-rotation: your code interpolates the entries of R linearly and then
-      computes the nearest rotation matrix, so the angular velocity is not constant
+      between the two ends is not a rotation matrix. Multiply the angle of the rotation
+      from R0 to R1 by s instead
+    entries-made-a-rotation: your code computes the rotation matrix nearest to the
+      linear interpolation of R, so the angular velocity is not constant. Multiply the
+      angle of the rotation from R0 to R1 by s instead
     nlerp: your code interpolates the quaternions linearly and normalises the result, so
-      the angular velocity varies
+      the angular velocity is not constant. Multiply the angle of the rotation from R0
+      to R1 by s instead
     turn-in-world-axes: your rotation R1 R0^T is expressed in the world frame. Multiply
       R0 by this rotation from the left, not from the right
     turn-on-the-left: your rotation R0^T R1 is expressed in the first frame. Multiply R0
       by this rotation from the right, not from the left
-    turn-backwards: your rotation is in the opposite direction, because R1^T R0 is the
-      rotation from R1 to R0
-    logarithms-mixed: your code interpolates the rotation vectors of R0 and R1 linearly,
-      but rotations about different axes do not add
-    not-turned: your orientation is R0 for every s. The orientation should reach R1 at s
-      = 1
+    turn-backwards: your code uses R1^T R0, which is the rotation from R1 to R0. Use the
+      rotation from R0 to R1 instead
+    logarithms-mixed: your code interpolates the rotation vectors of R0 and R1 linearly.
+      Use the rotation vector from R0 to R1 instead, because rotations about different
+      axes do not add
+    not-turned: your orientation is R0 for every s. The orientation should be R1 at s =
+      1
     turned-at-once: your orientation is R1 for every s. Multiply the angle of the
       rotation by s
     """
@@ -95,7 +99,7 @@ def _(T0, T1, s):
 @row.wrong
 def screw_motion(T0, T1, s):
     """your code follows the screw motion from T0 to T1, so the origin moves along a
-    curve. The task requires a straight line"""
+    curve. Interpolate the position along a straight line instead"""
     T = se3.inverse(T0) @ T1
     w = log_rotation(T[:3, :3])
     p = T[:3, 3]
@@ -109,8 +113,8 @@ def screw_motion(T0, T1, s):
 
 @row.wrong
 def way_in_the_first_frame(T0, T1, s):
-    """your code rotates the displacement p1 - p0 by R0, but both positions are already
-    expressed in the world frame"""
+    """your code rotates the displacement p1 - p0 by R0. Use the displacement unchanged,
+    because both positions are already expressed in the world frame"""
     p0, p1 = T0[:3, 3], T1[:3, 3]
     R = interpolate_pose(T0, T1, s)[:3, :3]
     return se3.make_T(R, p0 + s * T0[:3, :3] @ (p1 - p0))

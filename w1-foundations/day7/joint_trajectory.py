@@ -29,24 +29,26 @@ def wrapped(angles):
 
 @row.wrongs
 def _(q0, q1, t, T):
-    """start-everywhere: your code also adds q0 to the velocity and the acceleration,
-      but the derivatives of the constant q0 are 0
+    """start-everywhere: your code also adds q0 to the velocity and the acceleration.
+      Add q0 only to the position, because the derivatives of the constant q0 are 0
     goal-for-way: your code uses q1 instead of the displacement q1 - q0, so the motion
       ends at q0 + q1 instead of q1
-    way-reversed: your displacement is q0 - q1, so the arm moves away from the goal
-    speed-forwards-only: your code loses the sign of the displacement, so every joint
-      moves in the positive direction
+    way-reversed: your displacement is q0 - q1, so the arm moves away from the goal. Use
+      q1 - q0 instead
+    speed-forwards-only: your code uses the absolute value of the displacement, so every
+      joint moves in the positive direction. Keep the sign of the displacement
     rates-without-way: your velocity and acceleration are sd and sdd for every joint.
       Multiply both by the joint's displacement
-    rates-of-the-goal: your velocity and acceleration use q1 instead of the displacement
-      q1 - q0
+    rates-of-the-goal: your velocity and acceleration contain q1 as a factor. Use the
+      displacement q1 - q0 instead
     rates-divided-again: your code divides the velocity and the acceleration by powers
       of the duration. Omit these divisions, because sd and sdd are already derivatives
       with respect to t
-    q-wrapped: your code wraps the angles to [-pi, pi], but a joint angle with limits is
-      not periodic. For example, joint6 can reach 3.75 rad
-    way-wrapped: your code wraps the displacement to [-pi, pi], but a joint cannot
-      rotate past its limits to take a shorter path
+    q-wrapped: your code wraps the angles to [-pi, pi]. Return the angles unchanged,
+      because joints with limits are not periodic. For example, joint6 can move to 3.75
+      rad
+    way-wrapped: your code wraps the displacement to [-pi, pi]. Use the displacement
+      unchanged, because a joint cannot rotate past its limits to take a shorter path
     """
     displacement = q1 - q0
     scaling = quintic_scaling(t, T)

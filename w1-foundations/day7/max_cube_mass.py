@@ -27,7 +27,8 @@ for g in (9.8, 10, 9.80665):
 
     @row.wrong(
         "another-gravity",
-        f"your code uses {g} m/s2 for gravity, but the lab's GRAVITY is 9.81 m/s2",
+        f"your code uses {g} m/s2 for gravity. Use the lab's GRAVITY, which is 9.81 "
+        "m/s2",
     )
     def _(grip, mu, acceleration, g=g):
         return 2 * mu * grip / (g + acceleration)

@@ -72,18 +72,18 @@ def _(rng):
 
 @row.wrongs
 def _(start, end, T):
-    """in-powers-of-x: your coefficients belong to powers of t / duration, but the task
-      asks for powers of t
+    """in-powers-of-x: your coefficients belong to powers of t / duration. Return the
+      coefficients of powers of t
     T-is-1: your code uses t = 1 in the conditions at the end, so the duration has no
-      effect
+      effect. Use t = duration instead
     cubic: your polynomial is a cubic, which does not satisfy the two conditions for the
-      accelerations
+      accelerations. Use a polynomial of degree 5, which has six coefficients
     accelerations-zero: your code sets the accelerations at both ends to 0. Use the
       given accelerations
     rest-to-rest: your code sets the velocities and the accelerations at both ends to 0.
       Use the given values
-    two-forgotten: your matrix has 1 for t^2 in the row of the initial acceleration, but
-      the second derivative of t^2 is 2
+    two-forgotten: your matrix has 1 for t^2 in the row of the initial acceleration.
+      This entry should be 2, which is the second derivative of t^2
     conditions-mixed-up: your right-hand side alternates between start and end, but the
       rows of your matrix do not. Use the same order in the matrix and in the right-hand
       side

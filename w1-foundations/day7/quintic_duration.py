@@ -26,7 +26,8 @@ def never_less(case: Case) -> Finding | None:
     if case.T[off].max() > min(least, case.T[~off].min()):
         return None
     says = (
-        f"Your result is never below {least:g} s, but a short motion needs less time."
+        f"Your result is never below {least:g} s, but a short motion needs less "
+        "time. Remove this lower bound."
     )
     return Finding("never-less", says)
 
@@ -58,9 +59,9 @@ def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERAT
 @row.wrongs
 def _(delta_q, v_max, a_max):
     """least-of-all: your code returns the shortest of all durations, so the other
-      limits are violated. Use the longest duration
-    added-up: your code adds the durations of all joints and limits, but the joints move
-      at the same time. Use the longest duration
+      limits are violated. Return the longest duration instead
+    added-up: your code adds the durations of all joints and limits. Use the longest
+      duration instead, because the joints move at the same time
     """
     each = seconds(delta_q, v_max, a_max)
     return {"least-of-all": each.min(), "added-up": each.sum()}
@@ -68,15 +69,17 @@ def _(delta_q, v_max, a_max):
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """peak-of-the-cubic: your code uses 1.5, the maximum velocity of the cubic scaling.
-      The quintic is faster halfway and exceeds the limit by 25 %
-    peak-of-the-cubic 2: your code uses 6, the maximum acceleration of the cubic
-      scaling. The acceleration of the quintic has its maximum where the derivative of
-      the acceleration is 0
-    peak-of-the-cubic 3: your code uses 1.5 and 6, the maximum velocity and acceleration
-      of the cubic scaling. The quintic has other maxima
-    peak-at-a-quarter: your code uses 5.625, the acceleration at a quarter of the
-      duration. The maximum is at the time when the derivative of the acceleration is 0
+    """peak-of-the-cubic: your code uses 1.5, which is the maximum velocity of the cubic
+      scaling. Use the maximum velocity of the quintic, which occurs at half of the
+      duration
+    peak-of-the-cubic 2: your code uses 6, which is the maximum acceleration of the
+      cubic scaling. Use the maximum acceleration of the quintic, where the derivative
+      of the acceleration is 0
+    peak-of-the-cubic 3: your code uses 1.5 and 6, which are the maximum velocity and
+      acceleration of the cubic scaling. Use the two maxima of the quintic instead
+    peak-at-a-quarter: your code uses 5.625, which is the acceleration at a quarter of
+      the duration. Use the maximum acceleration, where the derivative of the
+      acceleration is 0
     """
     peaks = {
         "peak-of-the-cubic": {"speed": 1.5},
@@ -94,33 +97,34 @@ def _(delta_q, v_max, a_max):
     """limits-of-different-joints: your code combines the largest displacement with the
       lowest limit. Use the displacement and the limit of the same joint
     both-added: your code adds the duration for the velocity and the duration for the
-      acceleration. The longer of the two already satisfies both limits
+      acceleration. Use the longer of the two, which already satisfies both limits
     both-added 2: your code adds the duration for the velocity and the duration for the
-      acceleration. The longer of the two already satisfies both limits
-    shorter-of-two: your code returns the shorter of the two durations, which violates
-      one of the limits
-    shorter-of-two 2: each joint in your code takes the shorter of its two durations,
-      which violates one of the two limits
+      acceleration. Use the longer of the two, which already satisfies both limits
+    shorter-of-two: your code returns the shorter of the durations for velocity and
+      acceleration, which violates one of the limits. Return the longer one
+    shorter-of-two 2: your code uses the shorter of the durations for velocity and
+      acceleration for each joint, which violates one of the limits. Use the longer one
     fastest-joint: your code returns the shortest duration of all joints, so the other
-      joints violate their limits
+      joints violate their limits. Return the longest duration
     fastest-joint 2: your code uses the shortest duration of all joints for each limit,
-      so the other joints violate their limits
-    one-length: your code uses the norm of delta_q for all joints, but each joint has
-      its own displacement and its own limits
-    summed: your code adds the durations of the joints, but the joints move at the same
-      time. Use the longest duration
+      so the other joints violate their limits. Use the longest duration
+    one-length: your code uses the norm of delta_q for all joints. Use each joint's own
+      displacement and its own limits
+    summed: your code adds the durations of the joints. Use the longest duration
+      instead, because the joints move at the same time
     mean: your code returns the mean of the joints' durations, so the slower joints
-      violate their limits
-    longest-way: your code uses only the joint with the largest displacement. A joint
-      with lower limits may need more time
-    one-limit-for-all: your code uses the limits of the first joint for all joints, but
-      each joint has its own limits
-    one-limit-for-all 2: your code uses the lowest limits for all joints, but each joint
-      has its own limits
+      violate their limits. Return the longest duration
+    longest-way: your code uses only the joint with the largest displacement. Use the
+      longest duration of all joints, because a joint with lower limits may need more
+      time
+    one-limit-for-all: your code uses the limits of the first joint for all joints. Use
+      each joint's own limits
+    one-limit-for-all 2: your code uses the lowest limits for all joints. Use each
+      joint's own limits
     speed-only: your code uses only the velocity limits, so a short motion exceeds the
-      acceleration limits
+      acceleration limits. Use both limits
     acceleration-only: your code uses only the acceleration limits, so a long motion
-      exceeds the velocity limits
+      exceeds the velocity limits. Use both limits
     """
     each = seconds(delta_q, v_max, a_max)
     i = np.argmax(np.abs(delta_q))

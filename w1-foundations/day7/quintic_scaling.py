@@ -45,10 +45,11 @@ def polynomial(coefficients, x, T):
 
 def jumps(t, T):
     """cubic: your s is the cubic 3 x^2 - 2 x^3, whose acceleration jumps at both ends.
-      The acceleration of the quintic is 0 at both ends
-    linear: your s grows at a constant rate, so the velocity jumps at both ends
-    cosine: your s is (1 - cos(pi x)) / 2, whose acceleration jumps at both ends. The
-      acceleration of the quintic is 0 at both ends
+      Use the quintic, whose acceleration is 0 at both ends
+    linear: your s grows at a constant rate, so the velocity jumps at both ends. Use the
+      quintic, whose velocity is 0 at both ends
+    cosine: your s is (1 - cos(pi x)) / 2, whose acceleration jumps at both ends. Use
+      the quintic, whose acceleration is 0 at both ends
     """
     x = np.clip(t / T, 0.0, 1.0)
     a = np.pi * x
@@ -75,22 +76,23 @@ row.wrongs(jumps_to_rest)
 @row.wrongs
 def _(t, T):
     """septic: your s is the polynomial of degree 7, which also has jerk 0 at both ends.
-      The task asks for degree 5
-    6-and-10-swapped: your code swaps the coefficients 6 and 10. At the end s is 1, but
-      the velocity is not 0
+      Use the polynomial of degree 5 instead
+    6-and-10-swapped: your code swaps the coefficients 6 and 10, so the velocity is not
+      0 at the end. The coefficient of the fifth power should be 6
     sd-and-sdd-not-divided: your sd and sdd are derivatives with respect to x = t /
       duration. By the chain rule, divide sd by the duration and sdd by the square of
       the duration
-    t-for-x: your code evaluates the polynomial at t instead of t / duration, so the
-      duration has no effect
+    t-for-x: your code evaluates the polynomial at t, so the duration has no effect.
+      Evaluate the polynomial at t / duration instead
     not-divided+not-clipped: your sd and sdd are derivatives with respect to x = t /
       duration instead of t. Your code also evaluates the polynomial before the start
-      and after the end
+      and after the end, when the robot should be at rest
     end-not-clipped: your code handles t < 0 but not t > duration, so it evaluates the
       polynomial after the end. For t > duration, use s = 1 with zero velocity and
       acceleration, because the robot is at rest again
     never-clipped: your code also evaluates the polynomial before the start and after
-      the end, when the robot should be at rest
+      the end. Use s = 0 before the start and s = 1 after the end, both with zero
+      velocity and acceleration
     start-not-clipped: your code handles t > duration but not t < 0, so it evaluates the
       polynomial before the start. For t < 0, use s = 0 with zero velocity and
       acceleration, because the robot is still at rest
@@ -112,10 +114,11 @@ def _(t, T):
 @row.wrongs
 def _(t, T):
     """sd-not-divided: your sd is the derivative with respect to x = t / duration. By
-      the chain rule, the derivative with respect to t also has the factor 1 / duration
+      the chain rule, divide this derivative by the duration to get the derivative with
+      respect to t
     sdd-not-divided: your sdd is the derivative with respect to x = t / duration. By the
-      chain rule, the second derivative with respect to t also has the factor 1 /
-      duration^2
+      chain rule, divide this derivative by duration^2 to get the derivative with
+      respect to t
     sdd-divided-once: your code divides sdd by the duration only once. Divide twice,
       because sdd is a second derivative
     multiplied-by-T: your code multiplies sd and sdd by powers of the duration. By the

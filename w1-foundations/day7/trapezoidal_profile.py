@@ -67,18 +67,20 @@ def to_top(t, L, a, top):
 
 @row.wrongs
 def _(t, L, v, a):
-    """no-triangle: your maximum velocity is always v. If L is short, the arm has to
-      decelerate before the velocity reaches v
-    triangle-too-late: your profile is a triangle only for L < v^2 / (2 a), the distance
-      of one ramp. The profile has two such ramps
+    """no-triangle: your maximum velocity is always v. If L is less than v^2 / a, use
+      the lower maximum velocity of a triangular profile, because the arm cannot reach v
+    triangle-too-late: your profile is a triangle only for L < v^2 / (2 a), which is the
+      distance of one ramp. Use a triangle for all L < v^2 / a, because the profile has
+      two ramps
     triangle-too-soon: your profile is a triangle for all L < 2 v^2 / a, so its velocity
-      can exceed v. The two ramps together cover v^2 / a
-    triangle-too-high: your triangle has the height sqrt(2 L a), so its area is not L.
-      The acceleration takes only half of the base of the triangle
-    triangle-too-low: your triangle has the height sqrt(L a / 2), so its area is not L.
-      The acceleration and the deceleration should each cover L / 2
+      can exceed v. Use a triangle only for L < v^2 / a, which is the distance of both
+      ramps
+    triangle-too-high: your triangle has the height sqrt(2 L a), so its area is 2 L.
+      Choose the height so that the area of the velocity profile is L
+    triangle-too-low: your triangle has the height sqrt(L a / 2), so its area is L / 2.
+      Choose the height so that the area of the velocity profile is L
     triangle-not-a-root: your triangle has the height L a, which is a squared velocity.
-      Take the square root of L a
+      Use the square root of L a instead
     """
     peak = np.sqrt(L * a)
     short = v**2 > L * a  # L is too short to reach v

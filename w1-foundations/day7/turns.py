@@ -61,8 +61,8 @@ TURNS = [
         "wrong-at-pi",
         "Your function is correct except for rotations by 180 degrees or slightly "
         "less. For such a rotation R = R0^T R1, the matrix R - R^T is nearly 0 and "
-        "does not determine the axis. Use R + R^T, which contains the components of "
-        "the axis and their relative signs.",
+        "does not determine the axis. Use R + R^T instead, because it determines the "
+        "axis up to its sign.",
         _half_or_nearly,
     ),
     HeldOut(

@@ -52,23 +52,26 @@ def side_by_side(*blocks):
 
 
 for slug, says, blocks in (
-    ("smoothed", "your dry friction is tanh(qd / 0.1), a smoothed sign. Use the sign "
-                 "of qd itself",
+    ("smoothed", "your dry friction is tanh(qd / 0.1), which is a smoothed sign. Use "
+                 "the sign of qd itself",
      lambda qd, qdd: (qdd, qd, np.tanh(qd / 0.1))),
     ("sign-at-rest",
-     "your dry friction is 1 for a joint at rest, but the sign of 0 is 0",
+     "your dry friction is 1 for a joint at rest. It should be 0, because the sign "
+     "of 0 is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd < 0.0, -1.0, 1.0))),
     ("sign-at-rest-negative",
-     "your dry friction is -1 for a joint at rest, but the sign of 0 is 0",
+     "your dry friction is -1 for a joint at rest. It should be 0, because the sign "
+     "of 0 is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
     ("sign-at-rest-of-qdd", "your dry friction has the sign of qdd for a joint at "
                             "rest. Use the sign of qd, which is 0 at rest",
      lambda qd, qdd: (qdd, qd, np.where(qd == 0.0, np.sign(qdd), np.sign(qd)))),
-    ("slow-left-out", "your dry friction is 0 for a slow joint, but the magnitude of "
-                      "dry friction does not depend on the velocity",
+    ("slow-left-out", "your dry friction is 0 for a slow joint. Use the sign of qd, "
+                      "because the magnitude of dry friction does not depend on the "
+                      "velocity",
      lambda qd, qdd: (qdd, qd, np.sign(qd) * (np.abs(qd) >= 0.1))),
-    ("dry-one-way", "your dry friction is 0 where qd is negative. It should be -1 "
-                    "there",
+    ("dry-one-way", "your dry friction is 0 for a negative qd. It should be -1, "
+                    "because dry friction has the sign of qd",
      lambda qd, qdd: (qdd, qd, np.maximum(np.sign(qd), 0.0))),
     ("dry-forgotten", "your seven columns for dry friction are 0. Their diagonal "
                       "should contain the signs of qd",

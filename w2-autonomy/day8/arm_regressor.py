@@ -78,10 +78,10 @@ for slug, says, other in (
                           "because the preceding joints move the axis of joint i",
                           {"bracket": 0.0}),
     ("bracket-sign", "your `A` contains ad(S) V qd, which is the negative of ad(V) S "
-                     "qd. Use ad(V) S qd",
+                     "qd. Use ad(V) S qd instead",
      {"bracket": -1.0}),
-    ("pose-not-inverted", "your code transforms V and A with Ad(T). Use Ad(T^-1), "
-                          "which maps from the world frame to the link frame",
+    ("pose-not-inverted", "your code transforms V and A with Ad(T). Use Ad(T^-1) "
+                          "instead, which maps from the world frame to the link frame",
      {"into": adjoint}),
     ("offset-left-out", "the lower left block of your Ad(T^-1) is 0. It should be "
                         "-R^T [p], which moves the reference point of V and A to the "
@@ -101,27 +101,29 @@ for slug, says, other in (
                                 "the reference point of the moment to the world's "
                                 "origin",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),
-    ("every-joint-feels-every-link", "each link in your matrix has entries in the rows "
-                                     "of all joints, but a link causes no torque at "
-                                     "the joints distal to it",
+    ("every-joint-feels-every-link", "your matrix has entries for each link in the "
+                                     "rows of all joints. Fill only the rows of "
+                                     "joints 1 to i for link i, because a link "
+                                     "causes no torque at the joints distal to it",
      {"felt": lambda i: slice(0, 7)}),
-    ("cut-early", "your code leaves out the row of each link's own joint, but a link "
-                  "also causes a torque at its own joint",
+    ("cut-early", "your code omits the row of each link's own joint. Fill this row "
+                  "too, because a link also causes a torque at its own joint",
                   {"felt": lambda i: slice(0, i)}),
-    ("cut-late", "your code also fills the row of the joint after each link, but a "
-                 "link causes no torque at that joint",
+    ("cut-late", "your code also fills the row of the joint after each link. This "
+                 "row should be 0, because a link causes no torque at this joint",
                  {"felt": lambda i: slice(0, i + 2)}),
     ("later-links-only", "your matrix has the entries of link i in the rows of joints "
                          "i to 7. They belong in the rows of joints 1 to i",
      {"felt": lambda i: slice(i, 7)}),
-    ("own-link-only", "each row of your matrix has entries only for the joint's own "
-                      "link, but a joint also carries all links distal to it",
+    ("own-link-only", "your code fills only the columns of the joint's own link in "
+                      "each row. Fill the columns of all links distal to the joint "
+                      "as well, because the joint also carries these links",
                       {"felt": lambda i: slice(i, i + 1)}),
     ("last-link-missing", "your columns for the last link are 0. Does your loop end "
                           "one link too early?", {"links": 6}),
-    ("pose-of-the-link-before", "for each link, your code uses the pose of the "
-                                "previous link. T_links[0] is already the pose of "
-                                "link1",
+    ("pose-of-the-link-before", "your code uses the pose of the previous link for "
+                                "each link. T_links[0] is already the pose of link1, "
+                                "so use T_links[i] for link i + 1",
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
     ("pose-on-the-link-before", "your code uses the pose of each link relative to the "
      "previous link. T_links contains poses relative to the world, so use them "
@@ -178,7 +180,7 @@ def grouped_by_number(J_space, T_links, qd, qdd, g):
 
 TYPED_IN = Change(
     "gravity-typed-in",
-    "your code uses the constant (0, 0, -9.81) for gravity. Use the argument g",
+    "your code uses the constant (0, 0, -9.81) for gravity. Use the argument g instead",
     lambda g: DOWN,
     hidden="the arm of the lab is upright",
 )

@@ -43,8 +43,8 @@ def solved(Y, extra, rcond=None):
 
 @row.wrongs
 def _(J_site, R_site, extra, g):
-    """load-drives: your result has the opposite sign. The argument extra is the torque
-      of the motors, which hold the payload against its weight
+    """load-drives: your result has the wrong sign. The argument extra is the torque of
+      the motors, which hold the payload against its weight
     force-first: your wrench is in the order (force, moment). The first three rows of J
       are angular, so the moment should come first
     holds-averaged: your code averages the poses before the fit, which leaves seven
@@ -62,12 +62,13 @@ def _(J_site, R_site, extra, g):
       wrenches. Fit the torques themselves, because they are the measured quantities
     cut-too-high: your code omits small singular values. Keep these values, because they
       determine a part of m c if the poses differ only slightly
-    solutions-averaged: your code solves each pose alone and averages the solutions. One
-      pose does not determine all four parameters, so stack the rows of all poses
+    solutions-averaged: your code solves each pose separately and averages the
+      solutions. One pose does not determine all four parameters, so stack the rows of
+      all poses
     weight-for-mass: your first result is the weight in newtons. The column for m should
       contain g itself, not its unit vector
     centre-for-first-moment: your last three results are the centre of mass c. Return
-      the first moment m c, because the equations are linear in m c
+      the first moment m c instead, because the equations are linear in m c
     """
     Y = rows(J_site, R_site, g)
     right = solved(Y, extra)

@@ -62,11 +62,11 @@ for slug, says, code in (
                    "first entry of (tr(I)/2) E - I, with the identity matrix E, is "
                    "(Iyy + Izz - Ixx) / 2",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, doubled))[0]),
-    ("centre-for-first-moment", "your code uses the centre of mass c instead of the "
-                                "first moment h = m c",
+    ("centre-for-first-moment", "your code uses the centre of mass c. Use the first "
+                                "moment h = m c instead, which phi already contains",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, h=1.0 / phi[0]))[0]),
     ("determinant", "your result is the determinant, which is the product of all "
-                    "eigenvalues. Return the smallest eigenvalue",
+                    "eigenvalues. Return the smallest eigenvalue instead",
      lambda phi: np.linalg.det(pseudo(phi))),
     ("singular-value", "your result is the smallest singular value, which is never "
                        "negative. Return the smallest eigenvalue, because its sign "
@@ -75,7 +75,8 @@ for slug, says, code in (
     ("nearest-to-zero", "your result is the eigenvalue with the smallest absolute "
                         "value. Return the smallest eigenvalue, which may be negative",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi)), key=abs)),
-    ("clipped", "your code sets a positive result to 0. Return the eigenvalue itself",
+    ("clipped", "your code sets a positive result to 0. Return the eigenvalue itself "
+                "instead",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
     ("never-above-zero", "your result is minus the absolute value of the eigenvalue. "
                          "Return the eigenvalue itself, which is not negative for a "
@@ -87,9 +88,9 @@ for slug, says, code in (
                           "triangle",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
-    ("about-the-centre", "your code first moves I to the centre of mass. The "
-                         "pseudo-inertia is about the origin, as I is, so use I "
-                         "unchanged",
+    ("about-the-centre", "your code first moves I to the centre of mass. Use I "
+                         "unchanged, because the pseudo-inertia also refers to the "
+                         "origin",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
     ("of-the-inertia", "your result is the smallest eigenvalue of the 6x6 spatial "
                        "inertia. Use the 4x4 pseudo-inertia [[S, h], [h^T, m]] with S "

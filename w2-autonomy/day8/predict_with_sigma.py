@@ -33,30 +33,31 @@ def _(Y, tau, Y_new, rtol):
       as the rank
     one-more-taken-off: your code divides the sum of the squared residuals by n - rank -
       1. No mean is subtracted, so divide the sum by n - rank
-    mean-of-sizes: your noise is the mean absolute residual. It should be sqrt(r . r /
-      (n - rank)) with the vector r of the residuals
-    noise-added: your code adds the noise of a new measurement to sigma, but sigma
-      should include only the uncertainty of the fitted parameters
+    mean-of-sizes: your noise level is the mean absolute residual. It should be sqrt(r .
+      r / (n - rank)) with the vector r of the residuals
+    noise-added: your code adds the noise of a new measurement to sigma. Omit this
+      noise, because sigma should include only the uncertainty of the fitted parameters
     mean-taken-off: your code first subtracts the mean of the residuals, as in a
       standard deviation about the mean. The mean is part of the noise, so do not
       subtract it
-    rank-taken-off-last: your code subtracts the rank after the division by n. Divide by
-      (n - rank)
-    noise-for-sigma: your sigma is the standard deviation of the noise for every row of
-      Y_new. It should be larger for a row that the data hardly determine
-    sigma-by-s-squared: your sigma contains the factor S^-2. This factor belongs to the
-      variance y V S^-2 V^T y^T, and sigma is the square root of the variance
+    rank-taken-off-last: your code divides the sum of the squared residuals by n and
+      then subtracts the rank. Divide the sum by n - rank instead
+    noise-for-sigma: your sigma is the noise level for every row y of Y_new. Multiply
+      the noise level by the norm of y V S^-1, which is larger for a row that the data
+      hardly determine
+    sigma-by-s-squared: your sigma contains the factor S^-2. Use S^-1 instead, because
+      sigma is the noise level times the norm of y V S^-1 for each row y of Y_new
     sigma-with-V: your sigma uses V^T instead of V. The third result of numpy.linalg.svd
       is V^T, so transpose it
-    sigma-cut-not-squared: for sigma, your code compares the eigenvalues of Y^T Y with
-      rtol times the largest one. These eigenvalues are the squares of the singular
-      values, so use rtol^2
-    sizes-added: your sigma adds the absolute values of the terms. The variances of
-      independent errors add, so sigma should be the square root of the sum of the
-      squared terms
-    sizes-added 2: your sigma adds the absolute values of the weights of the
-      measurements. The variances of independent errors add, so sigma should be the
-      square root of the sum of the squared weights
+    sigma-cut-not-squared: your code compares the eigenvalues of Y^T Y with rtol times
+      the largest one when it computes sigma. These eigenvalues are the squares of the
+      singular values, so use rtol^2
+    sizes-added: your sigma is the noise level times the sum of the absolute entries of
+      y V S^-1, where y is a row of Y_new. Use the norm of this vector instead, because
+      the variances of independent errors add
+    sizes-added 2: your sigma is the noise level times the sum of the absolute entries
+      of y Y^+, where y is a row of Y_new. Use the norm of this vector instead, because
+      the variances of independent errors add
     sigma-not-cut: your sigma includes the small singular values that the fit omits.
       Omit these values in sigma too
     """
@@ -90,7 +91,7 @@ def _(Y, tau, Y_new, rtol):
 
 NOT_USED = Change(
     "rtol-not-used",
-    "your tolerance is a constant. Use the argument rtol",
+    "your tolerance is a constant. Use the argument rtol instead",
     lambda rtol: 1e-9,
     "the result with 1e-9 for rtol",
 )

@@ -103,11 +103,11 @@ for slug, says, told in (
                     "does with its default tolerance. Compare the singular values "
                     "with rtol times the largest one",
      lambda s, rtol, m: (n := np.sum(s > rtol * m * s[0]), s[0] / s[n - 1])),
-    ("rtol-not-used", "your tolerance is a constant. Use the argument rtol",
+    ("rtol-not-used", "your tolerance is a constant. Use the argument rtol instead",
      lambda s, rtol: (n := np.sum(s > 1e-9 * s[0]), s[0] / s[n - 1])),
     ("eigenvalues-of-the-square", "your code uses the eigenvalues of Y^T Y as "
-                                  "singular values. The singular values of Y are the "
-                                  "square roots of these eigenvalues",
+                                  "singular values. Use their square roots, which "
+                                  "are the singular values of Y",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), (s[0] / s[n - 1]) ** 2)),
     ("cut-not-squared", "your code compares the eigenvalues of Y^T Y with rtol times "
                         "the largest one. These eigenvalues are the squares of the "
@@ -117,9 +117,9 @@ for slug, says, told in (
     ("hidden-for-shown", "your rank is the number of singular values below the limit. "
                          "It should be the number above the limit",
      lambda s, rtol: (len(s) - (n := np.sum(s > rtol * s[0])), s[0] / s[n - 1])),
-    ("condition-squared", "your code computes the condition number of Y^T Y, which is "
-                          "the square of the condition number of Y. Use the singular "
-                          "values of Y",
+    ("condition-squared", "your code computes the condition number of Y^T Y, which "
+                          "is the square of the condition number of Y. Use the "
+                          "singular values of Y instead",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
     ("condition-rooted", "your condition number is the square root of the ratio of "
                          "the singular values. Take a square root only if you use "
@@ -142,9 +142,9 @@ for slug, says, told in (
 @row.wrongs
 def _(Y, rtol):
     """columns-scaled: your code first divides the columns of Y by their norms, which
-      changes the singular values. Use Y itself
-    columns-centred: your code first subtracts the mean of each column of Y, but the
-      model tau = Y phi has no constant term
+      changes the singular values. Use Y itself instead
+    columns-centred: your code first subtracts the mean of each column of Y. Use Y
+      itself, because the model tau = Y phi has no constant term
     """
     return {
         "columns-scaled": counted(Y / np.linalg.norm(Y, axis=0), rtol),

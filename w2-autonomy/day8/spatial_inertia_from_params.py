@@ -26,13 +26,13 @@ def _(rng):
 @row.wrongs
 def _(phi):
     """products-negative: your products of inertia Ixy, Ixz and Iyz have the wrong sign.
-      The argument phi contains the entries of I, so copy them unchanged
+      The argument phi contains the entries of I, so copy these three entries unchanged
     row-by-row: your code reads the six entries of I in the order Ixx, Ixy, Iyy, Ixz,
       Iyz, Izz. Their order in phi is Ixx, Iyy, Izz, Ixy, Ixz, Iyz
     triangle-by-rows: your code reads the six entries of I in the order Ixx, Ixy, Ixz,
       Iyy, Iyz, Izz. Their order in phi is Ixx, Iyy, Izz, Ixy, Ixz, Iyz
-    first-moment-times-m: your code multiplies phi[1:4] by m, but phi[1:4] is already
-      the first moment m c
+    first-moment-times-m: your code multiplies phi[1:4] by m. Use phi[1:4] unchanged,
+      because it is already the first moment m c
     corners-swapped: your code swaps the off-diagonal blocks. The block [h] belongs in
       the upper right and [h]^T in the lower left
     """
@@ -51,16 +51,16 @@ def _(phi):
 def _(phi):
     """lower-half-zero: your matrix has the products Ixy, Ixz and Iyz only above the
       diagonal. Write them below the diagonal too, because I is symmetric
-    inertia-about-the-centre: your code adds m [c] [c]^T to I, but I in phi is about the
-      origin and already includes this term
-    steiner-without-m: your code adds [h] [h]^T to I, but I in phi is already about the
-      origin and needs no further term
+    inertia-about-the-centre: your code adds m [c] [c]^T to I. Use I unchanged, because
+      phi contains the inertia about the origin, which already includes this term
+    steiner-without-m: your code adds [h] [h]^T to I. Use I unchanged, because phi
+      already contains the inertia about the origin
     corner-not-transposed: both of your off-diagonal blocks are [h]. The lower left
       block should be [h]^T
     corner-negated: both of your off-diagonal blocks are [h]^T. The upper right block
       should be [h]
-    velocity-first: your blocks are in the order (v; omega), but a twist in this course
-      is (omega; v)
+    velocity-first: your blocks are in the order (v; omega). The block of omega should
+      come first, because a twist in this course is (omega; v)
     """
     G = right(phi)
     C = skew(phi[1:4])

@@ -133,10 +133,10 @@ def _(Y, tau, rtol):
     ridge: your code adds a constant to the diagonal of Y^T Y, which reduces every
       parameter. Omit the small singular values instead, so that the other combinations
       keep their values
-    mean-taken-off: your code first subtracts the mean of tau, but the model tau = Y phi
-      has no constant term
-    times-s: your fit multiplies by the singular values. Divide by them, as in the
-      pseudo-inverse of Y
+    mean-taken-off: your code first subtracts the mean of tau. Use tau unchanged,
+      because the model tau = Y phi has no constant term
+    times-s: your fit multiplies by the singular values. Divide by the singular values
+      instead, as in the pseudo-inverse of Y
     first-columns: your code fits only the first r columns of Y, where r is the rank.
       These columns need not be linearly independent, so use all columns and the SVD
     """
