@@ -109,8 +109,8 @@ def exact_noise(
     """
     abar = float(_fraction(abar, "abar"))
     keep, lose = np.sqrt(abar), np.sqrt(1.0 - abar)
-    share, off, variance = _modes(x, keep, lose, means, sigma, weights)
-    return lose / variance * np.sum(share * off, axis=-2)
+    prob, off, variance = _modes(x, keep, lose, means, sigma, weights)
+    return lose / variance * np.sum(prob * off, axis=-2)
 
 
 def ddim_step(x: ArrayLike, eps: ArrayLike, abar: ArrayLike, prev: ArrayLike) -> Array:
@@ -255,9 +255,9 @@ def exact_velocity(
         ValueError: a wrong shape, t outside 0 to 1, or neither noise nor width.
     """
     t = float(_fraction(t, "t"))
-    share, off, variance = _modes(x, t, 1.0 - t, means, sigma, weights)
+    prob, off, variance = _modes(x, t, 1.0 - t, means, sigma, weights)
     slope = (t * sigma**2 - (1.0 - t)) / variance
-    return np.sum(share * (np.asarray(means, dtype=np.float64) + slope * off), axis=-2)
+    return np.sum(prob * (np.asarray(means, dtype=np.float64) + slope * off), axis=-2)
 
 
 def ema(slow: ArrayLike, fast: ArrayLike, k: int) -> Array:
@@ -325,8 +325,8 @@ def _modes(
     logs = np.full(weights.shape, -np.inf)
     np.log(weights, out=logs, where=weights > 0.0)
     logs = logs - 0.5 * np.sum(off**2, axis=-1) / variance
-    share = np.exp(logs - logs.max(axis=-1, keepdims=True))
-    return (share / share.sum(axis=-1, keepdims=True))[..., None], off, variance
+    prob = np.exp(logs - logs.max(axis=-1, keepdims=True))
+    return (prob / prob.sum(axis=-1, keepdims=True))[..., None], off, variance
 
 
 def _count(n: int, name: str) -> None:
