@@ -20,7 +20,7 @@ from robo47 import diffusion, push
 
 PATHS = 60  # in the picture
 MM = 1000.0
-START = 4  # of the test, in the picture and in the film
+START = 8  # of the test, in the picture and in the film
 
 
 class Silent:
