@@ -9,7 +9,7 @@ from scipy.integrate import quad
 from scipy.special import softmax
 from scipy.stats import norm
 
-from robo47 import chunking, cloning
+from robo47 import chunking, cloning, push
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -234,3 +234,15 @@ def test_an_ensemble_has_the_last_k_plans():
 def test_what_cannot_be_computed_is_refused(call, says):
     with pytest.raises(ValueError, match=says):
         call()
+
+
+def test_the_dock_is_left_on_both_sides_and_after_the_wait():
+    both = push.dock_demonstrations(40, 3)
+    assert both.home().all()
+    assert 10 < np.sum(push.on_the_left(both)) < 30
+    left = push.dock_demonstrations(40, 3, coin=False, wait=4)
+    assert push.on_the_left(left).all()
+    assert left.action.shape == (40, push.STEPS + 4, 2)
+    assert not left.action[:, :4].any()
+    assert left.action[:, 4].any(axis=1).all()
+    assert_same(left.observation[:, 4], both.observation[:, 0], 1e-12)

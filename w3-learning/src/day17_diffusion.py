@@ -29,7 +29,6 @@ ONE = (np.zeros((1, 1)), SIGMA, np.ones(1))  # a mixture of one mode
 LEVELS = 100  # of the schedule for the mixture
 STEPS = (5, 10, 20, 100)  # numbers of steps of the samplers
 DEMOS = 100  # demonstrations at the dock
-SPEED = 0.08  # m/s, of these demonstrations
 ACTIONS = 8  # of a plan, K
 EXECUTED = 4  # actions of a plan before the next one is drawn, h
 METHOD = "diffusion"  # or "flow"
@@ -434,17 +433,12 @@ def check_flow(lab: Lab, rng: np.random.Generator) -> None:
 
 def demonstrations() -> tuple[np.ndarray, np.ndarray]:
     """Return observations (n, 4) and plans (n, 16): the next actions, 0 at the end."""
-    rng = np.random.default_rng(SEED)
-    start = push.dock(DEMOS, rng)
-    coin = rng.choice([-1.0, 1.0], DEMOS)  # 1: around the puck on the left
     # mujoco.mj_step runs the demonstrator
-    episodes = push.run(
-        *push.scene(), start, lambda seen: push.demonstrator(seen, SPEED, side=coin)
-    )
+    episodes = push.dock_demonstrations(DEMOS, SEED)
     seen, action, episode = episodes.rows()
     plans, _ = chunking.action_chunks(action, episode, ACTIONS)
     print(f"  {np.sum(episodes.home())} of {DEMOS} demonstrations end at home, "
-          f"{np.sum(coin > 0)} of them on the left")  # fmt: skip
+          f"{np.sum(push.on_the_left(episodes))} of them on the left")  # fmt: skip
     return seen, plans.reshape(len(seen), -1)
 
 
@@ -547,7 +541,7 @@ def episodes_of(planner: Planner, steps: int = DENOISING) -> push.Episodes:
 def sideways(
     planner: Planner, rng: np.random.Generator, steps: int = DENOISING
 ) -> np.ndarray:
-    """Return the lateral velocity of each start's first plan, m/s, left positive."""
+    """Return the lateral velocity of each start's first plan, m/s, a sign per side."""
     start = push.dock(TESTED, np.random.default_rng(STARTS_SEED))
     plans = planner.draw(start, rng.normal(size=(TESTED, 2 * ACTIONS)), steps)
     x, y = plans[:, :EXECUTED].mean(axis=1).T
