@@ -75,4 +75,5 @@ def _(x, eps, abar, prev):
 def _(rng):
     x, eps = rng.numbers(-1, 1, 2, 3, 2)
     yield x, eps, 2e-7, 0.0002
-    yield 3 * x, eps, 0.9996, 1.0
+    yield 3 * x, 20 * eps, 0.9996, 1.0
+    yield 0.1 * x, eps, 0.4, 0.7

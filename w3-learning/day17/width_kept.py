@@ -80,3 +80,4 @@ def _(abars, sigma):
 def _(rng):
     yield np.array([2e-7, 0.001, 0.3, 0.9996]), 0.1
     yield np.linspace(0.001, 0.999, 100), 0.2
+    yield np.array([2.4e-7]), 0.1

@@ -305,7 +305,7 @@ HEADER = "                          right mode   width / sigma   beyond 4 sigma"
 
 
 def described(x: np.ndarray) -> tuple[float, float, float]:
-    """Return the fractions in the right mode and far away, and width / sigma between."""
+    """Return the fraction in the right mode, width / sigma, and the fraction far."""
     off = np.abs(x - MEANS.T).min(axis=1)  # from the nearest mode
     width = np.sqrt(np.mean(off**2)) / SIGMA
     return np.mean(x > 0), width, np.mean(off > 4 * SIGMA)
