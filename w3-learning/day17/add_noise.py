@@ -32,14 +32,15 @@ row.cases(
 )
 
 
+row.at_least_0(abar="a fraction")
+
+
 @row.wrongs
 def _(x0, noise, abar):
     """roots-forgotten: your factors are abar and 1 - abar. These are fractions of the
       power, so the factors are their square roots
     noise-root-forgotten: your noise has the factor 1 - sqrt(abar). The powers add up to
       1, so the factor is sqrt(1 - abar)
-    data-not-shrunk: your data are not multiplied by sqrt(abar), so the power of the sum
-      is not 1
     along-columns: in your code, abar is used for the columns. It has one number per row
     """
     a = abar[:, None]
@@ -49,7 +50,6 @@ def _(x0, noise, abar):
     return {
         "roots-forgotten": a * x0 + (1 - a) * noise,
         "noise-root-forgotten": keep * x0 + (1 - keep) * noise,
-        "data-not-shrunk": x0 + lose * noise,
         "along-columns": columns if square else keep * x0 + lose * noise,
     }
 

@@ -24,6 +24,9 @@ def angle(t):
     return (t + 0.008) / 1.008 * np.pi / 2
 
 
+row.at_least_0(T="a number of levels", answer="fractions")
+
+
 @row.wrongs
 def _(T):
     """linear: your schedule is the linear one, with beta from 0.0001 to 0.02. It is
@@ -37,14 +40,9 @@ def _(T):
       Level t ends at f(t + 1)
     betas: your result is beta, the fraction that each level removes. Return the product
       of 1 - beta over this level and all before it
-    alphas: your result is 1 - beta of each level. Return its product over this level
-      and all before it
-    roots: your result is the root of abar, the factor of the data. Return abar itself
-    noise-power: your result is 1 - abar, the power of the noise. Return abar
     """
     f = np.cos(angle(np.arange(T + 1) / T)) ** 2
     beta = np.minimum(1 - f[1:] / f[:-1], 0.999)
-    right = np.cumprod(1 - beta)
     return {
         "linear": np.cumprod(1 - np.linspace(1e-4, 0.02, T)),
         "no-square": of(lambda t: np.cos(angle(t)), T),
@@ -52,9 +50,6 @@ def _(T):
         "no-cap": f[1:] / f[0],
         "from-level-0": f[:-1] / f[0],
         "betas": beta,
-        "alphas": 1 - beta,
-        "roots": np.sqrt(right),
-        "noise-power": 1 - right,
     }
 
 

@@ -22,22 +22,17 @@ row.cases(
 )
 
 
+row.at_least_0(abar="a fraction", prev="a fraction")
+
+
 @row.wrongs
 def _(x, eps, abar, prev):
     """noise-not-put-back: your result is sqrt(prev) times the clean samples. Samples at
       the level prev contain noise as well: add sqrt(1 - prev) eps
     clean-returned: your result is the clean samples. Move them to the level prev:
       multiply them by sqrt(prev) and add sqrt(1 - prev) eps
-    clean-not-shrunk: your noise is added to the clean samples themselves. At the level
-      prev the signal has the factor sqrt(prev)
-    power-for-root: your clean samples are divided by abar. The signal in x has the
-      factor sqrt(abar)
-    noise-power-for-root: in your code, (1 - abar) eps is subtracted. The noise in x has
-      the factor sqrt(1 - abar)
     prev-not-rooted: your factors of the new level are prev and 1 - prev. They are
       fractions of the power, so the factors are their square roots
-    not-divided: your clean samples are not divided by sqrt(abar), the factor of the
-      signal in x
     clipped-at-1: in your code, the clean samples are clipped to -1 to 1, as for images.
       Data outside this range would be lost
     """
@@ -47,11 +42,7 @@ def _(x, eps, abar, prev):
     return {
         "noise-not-put-back": back * clean,
         "clean-returned": clean,
-        "clean-not-shrunk": clean + rest * eps,
-        "power-for-root": back * (x - lose * eps) / abar + rest * eps,
-        "noise-power-for-root": back * (x - (1 - abar) * eps) / keep + rest * eps,
         "prev-not-rooted": prev * clean + (1 - prev) * eps,
-        "not-divided": back * (x - lose * eps) + rest * eps,
         "clipped-at-1": back * np.clip(clean, -1, 1) + rest * eps,
     }
 

@@ -30,23 +30,18 @@ row.cases(
 )
 
 
+row.at_least_0(abar="a fraction", prev="a fraction")
+
+
 @row.wrongs
 def _(x, eps, abar, prev, noise):
     """beta-for-the-variance: your variance is 1 - abar / prev. Given the clean sample
       it is smaller: multiply it by (1 - prev) / (1 - abar)
-    variance-for-deviation: your noise is multiplied by the variance. Multiply it by the
-      standard deviation, its square root
     level-of-prev: your result is a sample at the level prev with fresh noise only.
       Given x, its mean also contains x, and its variance is smaller
     as-ddim: your result contains the noise eps again, as `ddim_step` does, and fresh
       noise. The mean is a weighted sum of the clean sample and x
     abar-for-alpha: your alpha is abar. A single step keeps the fraction abar / prev
-    root-of-alpha-forgotten: your weight of x contains alpha. It contains the square
-      root of alpha, because alpha is a fraction of the power
-    root-of-prev-forgotten: your weight of the clean sample contains prev. It contains
-      the square root of prev, because prev is a fraction of the power
-    weights-swapped: your weights of the clean sample and of x are swapped. Close to the
-      end of the chain, where prev is 1, the result is the clean sample
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
     clean = (x - lose * eps) / keep
@@ -64,15 +59,9 @@ def _(x, eps, abar, prev, noise):
 
     return {
         "beta-for-the-variance": mean + np.sqrt(beta) * noise,
-        "variance-for-deviation": mean + variance * noise,
         "level-of-prev": np.sqrt(prev) * clean + np.sqrt(1 - prev) * noise,
         "as-ddim": np.sqrt(prev) * clean + np.sqrt(1 - prev) * eps + fresh,
         "abar-for-alpha": plain(abar),
-        "root-of-alpha-forgotten": of_clean * clean
-        + alpha * (1 - prev) / (1 - abar) * x
-        + fresh,
-        "root-of-prev-forgotten": prev * beta / (1 - abar) * clean + of_x * x + fresh,
-        "weights-swapped": of_x * clean + of_clean * x + fresh,
     }
 
 

@@ -20,6 +20,9 @@ row.cases(
 )
 
 
+row.at_least_0(k="a number of averages")
+
+
 @row.wrongs
 def _(slow, fast, k):
     """max-for-min: your decay is the larger of 0.995 and (1 + k) / (10 + k). It is the
@@ -30,8 +33,6 @@ def _(slow, fast, k):
       Limit it to 0.995
     plain-mean: your result is the mean of all parameters so far, which never forgets
       the start
-    swapped: your decay is the weight of the new parameters. It is the weight of the old
-      average
     """
     grows = (1 + k) / (10 + k)
 
@@ -43,7 +44,6 @@ def _(slow, fast, k):
         "always-0995": by(0.995),
         "never-0995": by(grows),
         "plain-mean": by((k + 1) / (k + 2)),
-        "swapped": by(1 - min(0.995, grows)),
     }
 
 

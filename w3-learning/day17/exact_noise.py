@@ -32,16 +32,13 @@ row.cases(
 )
 
 
+row.at_least_0(abar="a fraction", sigma="a standard deviation", weights="probabilities")
+
+
 @row.wrongs
 def _(x, abar, means, sigma, weights):
     """data-width-forgotten: in your code, the variance of a noisy mode is 1 - abar. The
       data have a width as well, so it is abar sigma^2 + 1 - abar
-    centres-not-shrunk: your distance is from x to the mean of a mode. The signal in x
-      is multiplied by sqrt(abar), so its noisy mean is sqrt(abar) times this mean
-    weights-forgotten: in your code, all modes have the same weight. By Bayes' rule the
-      probability of a mode is proportional to its weight times its density at x
-    half-forgotten: your exponent of a Gaussian is -distance^2 / variance. It has the
-      variance times 2 in the denominator
     nearest-mode: in your code, each row belongs to its nearest mode alone. Take the
       mean over all modes, weighted with their probabilities given x
     weights-only: in your code, the probability of a mode does not depend on x. Multiply
@@ -68,9 +65,6 @@ def _(x, abar, means, sigma, weights):
     plain = plain / plain.sum(axis=1, keepdims=True)
     return {
         "data-width-forgotten": noise(*posterior(*given, wide=False)),
-        "centres-not-shrunk": noise(*posterior(*given, shrunk=False)),
-        "weights-forgotten": noise(*posterior(*given[:-1], np.ones(len(means)))),
-        "half-forgotten": noise(*posterior(*given, half=1.0)),
         "nearest-mode": noise(nearest, off, variance),
         "weights-only": noise(alone, off, variance),
         "clean": mean,

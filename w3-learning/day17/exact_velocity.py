@@ -32,16 +32,13 @@ row.cases(
 )
 
 
+row.at_least_0(t="from 0 to 1", sigma="a standard deviation", weights="probabilities")
+
+
 @row.wrongs
 def _(x, t, means, sigma, weights):
     """data-width-forgotten: in your code, the variance of x in a mode is (1 - t)^2. The
       data have a width as well, so it is t^2 sigma^2 + (1 - t)^2
-    centres-not-shrunk: your distance is from x to the mean of a mode. At the time t the
-      mode is at t times this mean
-    weights-forgotten: in your code, all modes have the same weight. By Bayes' rule the
-      probability of a mode is proportional to its weight times its density at x
-    half-forgotten: your exponent of a Gaussian is -distance^2 / variance. It has the
-      variance times 2 in the denominator
     nearest-mode: in your code, each row belongs to its nearest mode alone. Take the
       mean over all modes, weighted with their probabilities given x
     weights-only: in your code, the probability of a mode does not depend on x. Multiply
@@ -79,9 +76,6 @@ def _(x, t, means, sigma, weights):
     back = posterior(x, 1 - t, t, means, sigma, weights)
     return {
         "data-width-forgotten": velocity(*posterior(*given, wide=False)),
-        "centres-not-shrunk": velocity(*posterior(*given, shrunk=False)),
-        "weights-forgotten": velocity(*posterior(*given[:-1], np.ones(len(means)))),
-        "half-forgotten": velocity(*posterior(*given, half=1.0)),
         "nearest-mode": velocity(nearest, off, variance),
         "weights-only": velocity(alone, off, variance),
         "clean": data(prob, off, variance),

@@ -29,6 +29,9 @@ def _(rng):
     yield rng.numbers(-2, 2, 3, 2), rng.numbers(-2, 2, 3, 2), np.array([0.0, 0.5, 1])
 
 
+row.at_least_0(t="from 0 to 1")
+
+
 @row.wrongs
 def _(x0, noise, t):
     """diffusion-roots: your factors are the roots of t and 1 - t, as in diffusion. Flow
@@ -40,7 +43,6 @@ def _(x0, noise, t):
       data
     to-go: your velocity is the distance that is left, x0 - x_t. The whole distance x0 -
       noise takes the time 1, so it is the velocity
-    clean-target: your velocity is the data x0. The velocity is x0 - noise
     """
     t = t[:, None]
     at = (1 - t) * noise + t * x0
@@ -50,7 +52,6 @@ def _(x0, noise, t):
         "time-reversed": (back, x0 - noise),
         "other-convention": (back, noise - x0),
         "to-go": (at, x0 - at),
-        "clean-target": (at, x0),
     }
 
 

@@ -11,19 +11,17 @@ def mixtures(rng):
         yield rng.numbers(-1.5, 1.5, n, d), rng.numbers(-1, 1, k, d), sigma, weights
 
 
-def posterior(x, keep, lose, means, sigma, weights, half=0.5, shrunk=True, wide=True):
+def posterior(x, keep, lose, means, sigma, weights, wide=True):
     """Return the probability of each mode, the distance from it, and its variance.
 
     Args:
         x: keep data + lose noise, (n, d).
         keep, lose: factors of data and noise.
         means, sigma, weights: the mixture.
-        half: of the exponent.
-        shrunk: the means are multiplied by keep.
-        wide: the variance of the data counts.
+        wide: the variance contains the width of the data.
     """
     variance = wide * (keep * sigma) ** 2 + lose**2
-    off = x[:, None] - (keep if shrunk else 1.0) * means
-    power = -half * np.sum(off**2, axis=2) / variance
+    off = x[:, None] - keep * means
+    power = -0.5 * np.sum(off**2, axis=2) / variance
     prob = weights * np.exp(power - power.max(axis=1, keepdims=True))
     return (prob / prob.sum(axis=1, keepdims=True))[..., None], off, variance

@@ -21,25 +21,24 @@ row.cases(
 )
 
 
+row.at_least_0(T="a number of levels", n="a number of steps", answer="levels")
+
+
 @row.wrongs
 def _(T, n):
     """leading: your levels are multiples of T // n, so the noisiest one, T - 1, is
       missing. The samples start from noise, so the first level is T - 1
     trailing: your levels are T / n apart from T - 1 on, so the last one is not 0. Use n
       equally spaced numbers from T - 1 to 0
-    floor: your levels are rounded down. Round them to the nearest whole number
     ascending: your levels are in ascending order. A sampler starts at the noisiest
       level, T - 1
-    from-T: your levels begin at T. The levels are counted from 0, so the last is T - 1
     not-rounded: your levels are not rounded. They are indices of the schedule
     """
     even = np.linspace(T - 1, 0, n)
     return {
         "leading": (np.arange(n) * (T // n))[::-1],
         "trailing": np.round(np.arange(T, 0, -T / n))[:n] - 1,
-        "floor": even.astype(int),
         "ascending": np.rint(even[::-1] if n > 1 else even),
-        "from-T": np.rint(np.linspace(T, 0, n)),
         "not-rounded": even,
     }
 
@@ -59,3 +58,9 @@ def _(T, n):
 @row.spans
 def _(rng):
     yield 100, 20
+
+
+row.same(
+    "return (np.rint(np.linspace(T - 1, 0, n)).astype(int)).astype(np.float32)",
+    "whole numbers",
+)

@@ -22,6 +22,9 @@ row.cases(
 )
 
 
+row.at_least_0(abars="fractions", sigma="a standard deviation", answer="a fraction")
+
+
 @row.wrongs
 def _(abars, sigma):
     """width-forgotten: in your code, the vectors are (sqrt(abar), sqrt(1 - abar)).
@@ -31,8 +34,6 @@ def _(abars, sigma):
     last-step-forgotten: in your code, the step from the last level to abar = 1 is
       missing
     sum: your cosines are added. Each step multiplies the width, so multiply them
-    powers: your vectors are (sigma abar, 1 - abar). The factors of signal and noise are
-      the roots of these fractions
     width: your result is the standard deviation that is left. Return it as a fraction
       of sigma
     dots: your factors are the products of the vectors, not divided by their lengths.
@@ -53,7 +54,6 @@ def _(abars, sigma):
         "first-and-last-only": cosines(sigma * np.sqrt(ends), np.sqrt(1 - ends))[0][0],
         "last-step-forgotten": np.prod(right[:-1]),
         "sum": np.sum(right),
-        "powers": np.prod(cosines(sigma * levels, 1 - levels)[0]),
         "width": sigma * np.prod(right),
         "dots": np.prod(dots),
     }

@@ -36,9 +36,9 @@ PREDICTS_PLAN = True  # False: the network predicts the noise, or the velocity
 PLAN_LEVELS = 50  # of the schedule for plans
 DENOISING = 10  # steps from noise to a plan
 UNITS = 96  # of each hidden layer
-UPDATES = 3000  # steps of Adam
+UPDATES = 2000  # steps of Adam
 BATCH = 128  # rows of a step
-RATE = 0.002  # step size at the first update; it falls to 0 as a cosine
+RATE = 0.003  # step size at the first update; it falls to 0 as a cosine
 STARTS_SEED = 1000  # of the starts that policies are tested on
 TESTED = 200  # starts
 SLOW = 0.045  # m/s sideways: slower than each demonstration at its start
@@ -568,7 +568,7 @@ def draw_plans(lab: Lab) -> None:
         report(planner, steps)
     rng = np.random.default_rng(SEED)
     one, two = (sideways(planner, rng) > 0 for _ in range(2))
-    label = "fraction of starts whose two plans go to different sides"
+    label = "fraction of starts with plans to both sides"
     lab.record(
         "two_draws", np.mean(one != two), metric="fraction", label=label, seed=SEED
     )
