@@ -144,10 +144,10 @@ def test_the_fraction_is_decided_by_the_start():
     assert f"$x^\\ast$ = {at:.3f}" in SENTENCES
     # The cause is changed: other starts, or a schedule that ends in noise.
     better = right_mode(abars, noisy_quantiles(abars[0]))
-    assert f"puts {better:.3f} of the samples into the right mode" in SENTENCES
+    assert f"puts {better:.2f} of the samples into the right mode" in SENTENCES
     strong = diffusion.linear_schedule(100, 1e-3, 0.2)[::-1]
     assert f"$\\bar\\alpha$ is {strong[0]:.5f} at the noisy end" in SENTENCES
-    assert f"and the fraction is {right_mode(strong):.3f}" in SENTENCES
+    assert f"and the fraction is {right_mode(strong):.2f}" in SENTENCES
 
 
 def test_the_paths_of_samples_do_not_cross():
@@ -166,8 +166,16 @@ def test_the_widths_on_paper():
     lost = [1 - lab.euler_width(n) for n in (100, 440)]
     assert f"With 100 Euler steps {100 * lost[0]:.1f} % are lost" in SENTENCES
     assert lost[1] == pytest.approx(0.01, abs=2e-4)
+    assert f"$\\cos(9°)^{{10}}$ = {np.cos(np.pi / 20) ** 10:.3f}" in SENTENCES
     angle = np.arctan2(np.sqrt(1 - steps), 0.1 * np.sqrt(steps))
     assert angle[0] == pytest.approx(np.pi / 2, abs=1e-4)
+    turn = -np.diff(angle)
+    assert lab.timesteps(100, 10)[-2:].tolist() == [11, 0]
+    words = f"{np.degrees(turn[-1]):.0f} degrees and keeps only {np.cos(turn[-1]):.2f}"
+    assert f"has an angle of {words}" in SENTENCES
+    assert f"keep {np.prod(np.cos(turn[:-1])):.2f} together" in SENTENCES
+    noise = np.sqrt(1 - steps) / np.sqrt(steps)
+    assert noise[-2] > lab.SIGMA > noise[-1]
 
 
 def test_flow_matching_and_diffusion_share_their_samples():
