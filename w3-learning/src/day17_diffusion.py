@@ -85,8 +85,8 @@ def exact_noise(
     exact_noise([[0.5]], 0.36, [[-1], [1]], 0.1, [0.5, 0.5]) -> [[0.297030]]
     """
     # region 17.3
-    variance = abar * sigma**2 + 1 - abar  # of each noisy mode
-    off = x[:, None] - np.sqrt(abar) * means  # from each noisy mean to x, (n, k, d)
+    variance = abar * sigma**2 + 1 - abar  # the variance of each noisy mode
+    off = x[:, None] - np.sqrt(abar) * means  # distances from the means, (n, k, d)
     power = -(off**2).sum(axis=2) / (2 * variance)  # exponent of each Gaussian, (n, k)
     power = power - power.max(axis=1, keepdims=True)  # the largest exponent is 0
     prob = weights * np.exp(power)  # probability of each mode, not normalised
@@ -106,7 +106,7 @@ def ddim_step(x: np.ndarray, eps: np.ndarray, abar: float, prev: float) -> np.nd
     """
     # region 17.4
     clean = (x - np.sqrt(1 - abar) * eps) / np.sqrt(abar)  # the clean samples
-    return np.sqrt(prev) * clean + np.sqrt(1 - prev) * eps  # at the level prev
+    return np.sqrt(prev) * clean + np.sqrt(1 - prev) * eps  # the samples at prev
     # endregion 17.4
 
 
@@ -126,8 +126,8 @@ def ddpm_step(
     alpha = abar / prev  # the fraction of the power that is left from prev to abar
     of_clean = np.sqrt(prev) * (1 - alpha) / (1 - abar)  # weight of the clean samples
     of_x = np.sqrt(alpha) * (1 - prev) / (1 - abar)  # weight of x
-    variance = (1 - prev) * (1 - alpha) / (1 - abar)  # of the sample at the level prev
-    mean = of_clean * clean + of_x * x  # of the sample at the level prev
+    variance = (1 - prev) * (1 - alpha) / (1 - abar)  # the variance at the level prev
+    mean = of_clean * clean + of_x * x  # the mean at the level prev
     return mean + np.sqrt(variance) * noise  # the sample at the level prev
     # endregion 17.5
 
@@ -154,7 +154,8 @@ def width_kept(abars: np.ndarray, sigma: float) -> float:
     width_kept([0.36], 0.1) -> 0.07479
     """
     # region 17.7
-    angle = np.arctan2(np.sqrt(1 - abars), sigma * np.sqrt(abars))  # of each direction
+    signal = sigma * np.sqrt(abars)  # the first component of each vector
+    angle = np.arctan2(np.sqrt(1 - abars), signal)  # the angle of each vector
     turn = np.diff(np.append(angle, 0))  # the angle of each step
     return np.prod(np.cos(turn))  # the product of the cosines
     # endregion 17.7
@@ -187,13 +188,13 @@ def exact_velocity(
     exact_velocity([[0.5]], 0.5, [[-1], [1]], 0.1, [0.5, 0.5]) -> [[0.519613]]
     """
     # region 17.9
-    variance = t**2 * sigma**2 + (1 - t) ** 2  # of x in each mode
-    off = x[:, None] - t * means  # from each mode's mean to x, (n, k, d)
+    variance = t**2 * sigma**2 + (1 - t) ** 2  # the variance of x in each mode
+    off = x[:, None] - t * means  # distances from the modes' means, (n, k, d)
     power = -(off**2).sum(axis=2) / (2 * variance)  # exponent of each Gaussian, (n, k)
     power = power - power.max(axis=1, keepdims=True)  # the largest exponent is 0
     prob = weights * np.exp(power)  # probability of each mode, not normalised
     prob = prob / prob.sum(axis=1, keepdims=True)  # probability of each mode
-    slope = (t * sigma**2 - (1 - t)) / variance  # of the velocity over x, in a mode
+    slope = (t * sigma**2 - (1 - t)) / variance  # the slope of the velocity over x
     return (prob[:, :, None] * (means + slope * off)).sum(axis=1)  # the mean velocity
     # endregion 17.9
 
