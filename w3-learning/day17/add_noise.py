@@ -41,16 +41,12 @@ def _(x0, noise, abar):
       power, so the factors are their square roots
     noise-root-forgotten: your noise has the factor 1 - sqrt(abar). The powers add up to
       1, so the factor is sqrt(1 - abar)
-    along-columns: in your code, abar is used for the columns. It has one number per row
     """
     a = abar[:, None]
     keep, lose = np.sqrt(a), np.sqrt(1 - a)
-    square = x0.shape[0] == x0.shape[1]
-    columns = np.sqrt(abar) * x0 + np.sqrt(1 - abar) * noise if square else None
     return {
         "roots-forgotten": a * x0 + (1 - a) * noise,
         "noise-root-forgotten": keep * x0 + (1 - keep) * noise,
-        "along-columns": columns if square else keep * x0 + lose * noise,
     }
 
 

@@ -11,6 +11,7 @@ row = Row(Vector((None,), called="the schedule"))
 def _(rng):
     for T in (4, 1, 2, 3, 7, 10, 20, 50, 100):
         yield (T,)
+    yield (int(rng.integers(5, 40)),)
 
 
 def of(f, T, most=0.999):

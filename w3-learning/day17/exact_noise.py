@@ -6,7 +6,11 @@ from labkit.judge import Matrix, Row
 
 from .modes import mixtures, posterior
 
-row = Row(Matrix((None, None)))
+row = Row(
+    Matrix((None, None)),
+    # The root of 1 - abar has no derivative at 1.
+    at_edge=lambda x, abar, means, sigma, weights: abar < 1,
+)
 TWO = np.array([[-1.0], [1]])
 
 

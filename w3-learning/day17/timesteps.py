@@ -12,6 +12,8 @@ def _(rng):
     # None of these has a level halfway between two whole numbers.
     yield from ((50, 10), (10, 4), (7, 1), (1, 1), (9, 9), (100, 8), (9, 3))
     yield from ((12, 2), (8, 6), (100, 100), (23, 6))
+    n, apart = rng.integers(2, 7, 2)
+    yield int(1 + (n - 1) * apart), int(n)
 
 
 row.cases(
