@@ -43,7 +43,7 @@ def _(x0, noise, abar):
       1, so the factor is sqrt(1 - abar)
     """
     a = abar[:, None]
-    keep, lose = np.sqrt(a), np.sqrt(1 - a)
+    keep = np.sqrt(a)
     return {
         "roots-forgotten": a * x0 + (1 - a) * noise,
         "noise-root-forgotten": keep * x0 + (1 - keep) * noise,

@@ -68,19 +68,3 @@ def euler(steps=10, sigma=LAB.SIGMA):
         lambda x, t: LAB.exact_velocity(x, t, np.zeros((1, 1)), sigma, np.ones(1)),
     )  # fmt: skip
     return x[0, 0] / sigma
-
-
-@numbers.add(
-    "fraction in the right mode after 10 DDIM steps, cosine schedule", "{:.3f}",
-    steps=between(0.985, 0.995, "it approaches 0.7"),
-    sigma=between(0.98, 1.0, "broader modes are sampled better"),
-    levels=between(0.99, 1.01, "the same times, except at the last level"),
-    samples=between(0.998, 1.002, "the starts are quantiles"),
-)  # fmt: skip
-def right(steps=10, sigma=LAB.SIGMA, levels=LAB.LEVELS, samples=LAB.SAMPLES // 5):
-    """Return the fraction of the samples in the right mode."""
-    x = LAB.ddim(
-        LAB.quantiles(samples), cosine(levels, steps),
-        lambda x, abar: LAB.exact_noise(x, abar, *mixture(sigma)),
-    )  # fmt: skip
-    return np.mean(x > 0)

@@ -41,6 +41,8 @@ def _(x, eps, abar, prev, noise):
       Given x, its mean also contains x, and its variance is smaller
     as-ddim: your result contains the noise eps again, as `ddim_step` does, and fresh
       noise. The mean is a weighted sum of the clean sample and x
+    alpha-inverted: your alpha is prev / abar, which is above 1. From prev to abar the
+      signal becomes weaker, so alpha is abar / prev
     abar-for-alpha: your alpha is abar. A single step keeps the fraction abar / prev
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
@@ -61,6 +63,7 @@ def _(x, eps, abar, prev, noise):
         "beta-for-the-variance": mean + np.sqrt(beta) * noise,
         "level-of-prev": np.sqrt(prev) * clean + np.sqrt(1 - prev) * noise,
         "as-ddim": np.sqrt(prev) * clean + np.sqrt(1 - prev) * eps + fresh,
+        "alpha-inverted": plain(prev / abar),
         "abar-for-alpha": plain(abar),
     }
 

@@ -43,6 +43,9 @@ row.at_least_0(abar="a fraction", sigma="a standard deviation", weights="probabi
 def _(x, abar, means, sigma, weights):
     """data-width-forgotten: in your code, the variance of a noisy mode is 1 - abar. The
       data have a width as well, so it is abar sigma^2 + 1 - abar
+    data-width-forgotten 2: in your code, the mean distance is divided by sqrt(1 - abar)
+      at the end, as if all of it were noise. A part of it is the width of the data:
+      multiply by sqrt(1 - abar) / (abar sigma^2 + 1 - abar)
     nearest-mode: in your code, each row belongs to its nearest mode alone. Take the
       mean over all modes, weighted with their probabilities given x
     weights-only: in your code, the probability of a mode does not depend on x. Multiply
@@ -52,6 +55,8 @@ def _(x, abar, means, sigma, weights):
       -sqrt(1 - abar) times the score
     overflow: all densities of a row far from the modes are 0 in your code, and 0 / 0 is
       NaN. Subtract the row's largest exponent before you call exp
+    overflow 2: in your code, one number is subtracted from the exponents of all rows.
+      Subtract each row's own largest exponent, or a row far from the modes gives 0 / 0
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
     given = x, keep, lose, means, sigma, weights
@@ -65,15 +70,21 @@ def _(x, abar, means, sigma, weights):
     nearest[np.arange(len(x)), at] = 1
     alone = np.broadcast_to((weights / weights.sum())[:, None], prob.shape)
     mean = np.sum(prob * (means + keep * sigma**2 / variance * off), axis=1)
-    plain = weights * np.exp(-np.sum(off**2, axis=2) / (2 * variance))
+    power = -np.sum(off**2, axis=2) / (2 * variance)
+    plain, once = (weights * np.exp(power - most) for most in (0, power.max()))
     plain = plain / plain.sum(axis=1, keepdims=True)
+    once = once / once.sum(axis=1, keepdims=True)
     return {
         "data-width-forgotten": noise(*posterior(*given, wide=False)),
+        "data-width-forgotten 2": np.sum(prob * off, axis=1) / lose
+        if lose
+        else np.nan * x,
         "nearest-mode": noise(nearest, off, variance),
         "weights-only": noise(alone, off, variance),
         "clean": mean,
         "score": -np.sum(prob * off, axis=1) / variance,
         "overflow": noise(plain[..., None], off, variance),
+        "overflow 2": noise(once[..., None], off, variance),
     }
 
 

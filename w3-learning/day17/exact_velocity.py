@@ -54,6 +54,8 @@ def _(x, t, means, sigma, weights):
       diffusion. In flow matching they are t and 1 - t
     overflow: all densities of a row far from the modes are 0 in your code, and 0 / 0 is
       NaN. Subtract the row's largest exponent before you call exp
+    overflow 2: in your code, one number is subtracted from the exponents of all rows.
+      Subtract each row's own largest exponent, or a row far from the modes gives 0 / 0
     """
     given = x, t, 1 - t, means, sigma, weights
 
@@ -69,8 +71,10 @@ def _(x, t, means, sigma, weights):
     at = np.argmin(np.sum(off**2, axis=2), axis=1)
     nearest[np.arange(len(x)), at] = 1
     alone = np.broadcast_to((weights / weights.sum())[:, None], prob.shape)
-    plain = weights * np.exp(-np.sum(off**2, axis=2) / (2 * variance))
+    power = -np.sum(off**2, axis=2) / (2 * variance)
+    plain, once = (weights * np.exp(power - most) for most in (0, power.max()))
     plain = plain / plain.sum(axis=1, keepdims=True)
+    once = once / once.sum(axis=1, keepdims=True)
     roots = np.sqrt(t), np.sqrt(1 - t)
     rooted = posterior(x, *roots, means, sigma, weights)
     back = posterior(x, 1 - t, t, means, sigma, weights)
@@ -84,6 +88,7 @@ def _(x, t, means, sigma, weights):
         "time-reversed": velocity(*back, 1 - t, t),
         "diffusion-roots": velocity(*rooted, *roots),
         "overflow": velocity(plain[..., None], off, variance),
+        "overflow 2": velocity(once[..., None], off, variance),
     }
 
 

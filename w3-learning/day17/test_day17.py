@@ -178,6 +178,14 @@ def test_the_widths_on_paper():
     assert noise[-2] > lab.SIGMA > noise[-1]
 
 
+def test_the_width_of_two_modes_contains_the_samples_between_them():
+    abars = lab.cosine_schedule(100)[lab.timesteps(100, 10)]
+    x = lab.ddim(lab.quantiles(lab.SAMPLES), abars, lab.noise_of)
+    off = np.median(np.abs(x - lab.MEANS.T).min(axis=1))
+    width = off / NORMAL.inv_cdf(0.75) / lab.SIGMA
+    assert f"of a Gaussian with {width:.2f} of the width" in SENTENCES
+
+
 def test_flow_matching_and_diffusion_share_their_samples():
     t, x = 0.3, np.array([[0.4], [-0.7]])
     size = np.hypot(t, 1 - t)
@@ -246,6 +254,8 @@ def multiples(T, n):
 )
 def test_the_robot_does_not_show_a_wrong_sampler(change, came, two):
     planner, _ = trained()
+    left = lab.cosine_schedule(lab.PLAN_LEVELS)[multiples(lab.PLAN_LEVELS, 10)[0]]
+    assert f"At level 45 only {left:.3f} of the power" in SENTENCES
     with changed(**change):
         assert home(planner) == pytest.approx(came, abs=8)
         assert two_draws(planner) == pytest.approx(two, abs=0.05)

@@ -32,6 +32,8 @@ def _(T, n):
       missing. The samples start from noise, so the first level is T - 1
     trailing: your levels are T / n apart from T - 1 on, so the last one is not 0. Use n
       equally spaced numbers from T - 1 to 0
+    whole-steps: your levels are T // n apart, so their number is not always n and 0 may
+      be missing. Use n equally spaced numbers and round them
     ascending: your levels are in ascending order. A sampler starts at the noisiest
       level, T - 1
     not-rounded: your levels are not rounded. They are indices of the schedule
@@ -40,6 +42,7 @@ def _(T, n):
     return {
         "leading": (np.arange(n) * (T // n))[::-1],
         "trailing": np.round(np.arange(T, 0, -T / n))[:n] - 1,
+        "whole-steps": np.arange(T - 1, -1, -(T // n)),
         "ascending": np.rint(even[::-1] if n > 1 else even),
         "not-rounded": even,
     }
