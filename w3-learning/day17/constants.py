@@ -35,7 +35,7 @@ def cosine(levels, steps):
     sigma=same("the noisy modes have a standard deviation of 0.80 and 0.81"),
     samples=same("the starts are quantiles"),
 )  # fmt: skip
-def linear(levels=LAB.LEVELS, last=0.02, sigma=LAB.SIGMA, samples=LAB.SAMPLES // 5):
+def linear(levels=LAB.LEVELS, last=0.02, sigma=LAB.SIGMA, samples=LAB.SAMPLES // 2):
     """Return the fraction of the samples in the right mode."""
     abars = diffusion.linear_schedule(levels, last=last)[::-1]
     x = LAB.ddim(

@@ -213,6 +213,9 @@ def test_the_opening_is_what_the_lab_prints(printed):
     far = re.search(r"DDIM, 5 steps.* (\d\.\d+)\n", printed)[1]
     assert round(100 * float(far)) == 8
     assert "8 % of the samples are far from both modes" in SENTENCES
+    error = np.sqrt(0.3 * 0.7 / lab.SAMPLES)
+    assert f"a sampling error, {error:.2f} for the fraction" in SENTENCES
+    assert f"starts {lab.SAMPLES} samples" in SENTENCES
 
 
 def test_the_policy_is_about_as_good_as_the_guide_says(printed):
