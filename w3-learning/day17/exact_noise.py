@@ -120,3 +120,4 @@ def _(x, abar, means, sigma, weights):
 def _(rng):
     yield np.array([[-3.0], [4.0]]), 2.4e-7, TWO, 0.1, np.array([0.3, 0.7])
     yield np.array([[-1.0], [0.7]]), 0.9999, TWO, 0.1, np.array([0.3, 0.7])
+    yield np.array([[0.1]]), 0.5, TWO, 0.1, np.array([0.3, 0.7])
