@@ -133,6 +133,6 @@ def _(x, d, W1, b1, W2, b2, W3, b3):
 @row.spans
 def _(rng):
     x = rng.numbers(-1, 1, 3, 2)
-    for size in (1e-3, 4.0):
+    for size, of_d in ((1e-3, 1e-5), (4.0, 10.0)):
         arrays = (size * a for a in net(rng, 2, 3, 2, 2))
-        yield 4.0 * x, 1e-3 * rng.numbers(-4, 4, 3, 2), *arrays
+        yield 4.0 * x, of_d * rng.numbers(-1, 1, 3, 2), *arrays

@@ -32,7 +32,8 @@ def frames() -> Iterator[Frame]:
     runs = [
         LAB.episodes_of(chunking.chunked_policy(plan, h), LAB.WAIT) for h in EXECUTED
     ]
-    start = int(np.flatnonzero(~runs[0].home() & runs[1].home())[0])
+    far = np.linalg.norm(runs[0].observation[:, -1, 2:], axis=1)
+    start = int(np.argmax(far * runs[1].home()))
     steps = runs[0].action.shape[1]
     for k in range(0, steps + 1, EVERY):
         last = k + EVERY > steps
@@ -59,7 +60,7 @@ def _moment(runs, some, start: int, k: int):
             axes.add_patch(
                 Circle(MM * seen[k, :2], MM * day15_mujoco.PUSHER, color=INK)
             )
-            axes.set(xlim=(-400, 400), ylim=(-380, 380), aspect="equal")
+            axes.set(xlim=(-340, 340), ylim=(-320, 320), aspect="equal")
             word = "action" if h == 1 else "actions"
             axes.set(title=f"{h} {word} per chunk, {k * day15_mujoco.TICK:.1f} s")
             axes.set(xticks=(), yticks=())

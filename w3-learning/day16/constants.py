@@ -26,16 +26,16 @@ numbers = Numbers(
 
 
 @numbers.add(
-    "padding of the chunks, as a fraction", "{:.3f}",
+    "padding of the chunks", "{:.0f} %",
     chunk=between(2.0, 2.2, "K (K - 1) / 2 of the K n entries: (K - 1) / (2 n)"),
     wait=between(0.85, 0.92, "(K - 1) / (2 n), and n grows from 68 to 76 rows"),
     demos=same("each episode has the same padding"),
     seed=same("each episode has the same length"),
 )  # fmt: skip
 def padding(chunk=LAB.PAUSE_K, wait=LAB.WAIT, demos=20, seed=LAB.SEED):
-    """Return the fraction of the entries that are padding."""
+    """Return the percentage of the entries that are padding."""
     episodes = DAY.dock_demonstrations(demos, seed, coin=False, wait=wait)
-    return 1 - LAB.Data(episodes, chunk).mask.mean()
+    return 100 * (1 - LAB.Data(episodes, chunk).mask.mean())
 
 
 @numbers.add(

@@ -85,5 +85,5 @@ def _(dz, mu, logvar, noise, beta):
 @row.spans
 def _(rng):
     dz, mu, logvar, noise = state(rng, 40, 1)
-    for size, beta in ((1e-4, 0.1), (1.0, 1.0)):
-        yield size * dz, 3 * mu, 3 * logvar, 2 * noise, beta
+    yield dz, 3 * mu, 3 * logvar, 2 * noise, 1.0
+    yield 1e-6 * dz, 1e-3 * mu, 1e-3 * logvar, 1e-3 * noise, 0.01

@@ -67,7 +67,7 @@ def latent(beta: float = lab.BETA) -> lab.Latent:
 @chart.picture(height=4.6)
 def decision(figure: Figure) -> None:
     """Draw the speeds after the pause, and the plans for nine values of z."""
-    speeds, *plans = figure.subplots(1, 3, width_ratios=(1.5, 1.0, 1.0))
+    speeds, *plans = figure.subplots(1, 3, width_ratios=(2.2, 1.0, 1.0))
     _speeds(speeds)
     for axes, beta in zip(plans, (lab.BETA, DEAD), strict=True):
         _plans(axes, beta)
@@ -84,8 +84,9 @@ def _speeds(axes: Axes) -> None:
         axes.plot(entries, paper[name], "--", color=colour, label=f"{name}, predicted")
         axes.plot(entries, found, "o-", color=colour, label=f"{name}, measured")
     axes.set(title=f"After a pause of {lab.WAIT} steps", xlabel="entry of the chunk")
-    axes.set(ylabel="speed, as a fraction of full speed", ylim=(-0.05, 1.3))
-    axes.legend(loc="upper left", ncols=2, fontsize=7)
+    axes.set(ylabel="speed / full speed", ylim=(-0.05, 1.05))
+    axes.set_xticks(range(1, lab.PAUSE_K + 1, 2))
+    axes.legend(loc="lower right", fontsize=9)
     axes.grid()
 
 
@@ -103,8 +104,8 @@ def _plans(axes: Axes, beta: float) -> None:
         axes.add_patch(Circle(MM * centre, MM * radius, fill=False, color=INK))
     mu, logvar = model.encode()
     kl = lab.kl_to_prior(mu, logvar)[model.data.first].mean()
-    axes.set(title=f"beta {beta:g}: {kl:.2f} nats", xlabel="x, mm", aspect="equal")
-    axes.set(xlim=(-130, 130), ylim=(-250, 60))
+    axes.set(title=f"beta {beta:g}", xlabel=f"{kl:.2f} nats", aspect="equal")
+    axes.set(xlim=(-90, 90), ylim=(-245, 35), xticks=(), yticks=())
 
 
 def small() -> Image.Image:
@@ -124,4 +125,4 @@ def small() -> Image.Image:
 
 
 FIGURES = {"decision": decision}
-SMALL = (small, "60 of 100")  # of a table of days, and its number
+SMALL = (small, "50 of 100")  # of a table of days, and its number

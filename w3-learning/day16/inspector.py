@@ -72,7 +72,7 @@ class Plans(ui.Declared):
     pusher = ui.yours.sphere(np.zeros(3), day15_mujoco.PUSHER, "red", legend="pusher")
 
     def ask(self, fns, at) -> Seen:
-        given = ([[at.mu]], [[at.logvar]], [[at.noise]])
+        given = (np.array([[one]]) for one in (at.mu, at.logvar, at.noise))
         z = np.asarray(fns.reparameterise(*given), dtype=float).reshape(1, 1)
         plans, start = self.planned(at, z)
         k = int(at.averaged)

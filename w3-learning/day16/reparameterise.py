@@ -54,3 +54,4 @@ def _(rng):
     mu, noise = rng.numbers(-1, 1, 2, 3, 1)
     for logvar in (-12.0, 4.0):
         yield 5 * mu, np.full((3, 1), logvar), 4 * noise
+    yield 1e-3 * mu, 1e-3 * noise, 1e-3 * mu

@@ -526,6 +526,8 @@ def ensembles(lab: Lab, latent: Latent, rng: np.random.Generator) -> None:
           f"{ensemble_noise(K, DECAY):.3f} if all errors are alike")  # fmt: skip
     lab.measured("noise left by the mean of 8 plans", left)
     lab.record("calm", np.round(left, 2), label="measured")
+    policy = chunking.chunked_policy(latent.with_z(), 1)
+    report("no ensembling, 1 executed", episodes_of(policy).home())
     for decay in (DECAY, -1.0):
         policy = chunking.ensembled_policy(latent.with_z(), K, decay, temporal_ensemble)
         report(f"ensembling, decay {decay:g}", episodes_of(policy).home())
