@@ -56,7 +56,7 @@ def third(wait=LAB.WAIT, updates=LAB.UPDATES, seed=LAB.SEED):
 @numbers.add(
     "KL divergence at the dock, nats", "{:.1f}",
     beta=between(0.0, 0.5, "a nat costs twice as much, and z collapses"),
-    chunk=between(0.5, 0.8, "the side concerns early entries, half of the mean"),
+    chunk=between(0.4, 0.7, "the side concerns early entries, half of the mean"),
     seed=between(0.8, 1.2, "another coin of the same kind", to=2),
 )  # fmt: skip
 def dock(beta=LAB.BETA, chunk=LAB.K, seed=LAB.SEED):

@@ -125,4 +125,4 @@ def small() -> Image.Image:
 
 
 FIGURES = {"decision": decision}
-SMALL = (small, "50 of 100")  # of a table of days, and its number
+SMALL = (small, "45 of 100")  # of a table of days, and its number

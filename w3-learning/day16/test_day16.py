@@ -10,10 +10,12 @@ import numpy as np
 import pytest
 
 from conftest import ROOT, load_script, printed_by, sentences
+from labkit.lesson.day import find_day
 from robo47 import chunking, cloning
 
 import day15_mujoco
 
+DAY = find_day(16)
 SENTENCES = sentences(16)
 lab = load_script(ROOT / "w3-learning/src/day16_chunking.py")
 SILENT = SimpleNamespace(training=lambda title, steps: range(1, steps + 1))
@@ -61,8 +63,9 @@ def home(plan, h=lab.H, wait=0):
 
 def row(start):
     """Return the cells of a row of a table of the guide."""
-    found = re.search(rf"\| {re.escape(start)} (\|.*?\|)(?= \||$)", SENTENCES)
-    return found[1].split("|")[1:-1]
+    lines = (DAY.folder / DAY.guide).read_text("utf-8").splitlines()
+    (found,) = [line for line in lines if line.startswith(f"| {start} |")]
+    return found.split("|")[2:-1]
 
 
 @pytest.fixture(scope="module")
@@ -104,11 +107,11 @@ def test_the_mean_is_below_the_median_rule_where_the_guide_says():
 @pytest.mark.kit
 def test_the_opening_is_what_the_lab_prints(printed):
     counts = [int(n) for n in re.findall(r"about +(\d+) of 100", printed)]
-    assert counts == pytest.approx([95, 100, 100, 50, 65, 100, 85, 90, 80, 90], abs=8)
-    assert "about 50 of 100" in SENTENCES
+    assert counts == pytest.approx([95, 100, 100, 45, 75, 100, 85, 85, 75, 85], abs=8)
+    assert "about 45 of 100" in SENTENCES
     assert "about 100 of 100" in SENTENCES
     kl = re.search(r"(\S+) nats at the dock, (\S+) elsewhere", printed)
-    assert float(kl[1]) == pytest.approx(1.0, abs=0.1)
+    assert float(kl[1]) == pytest.approx(0.9, abs=0.1)
     assert "8 % of the entries are padding" in printed
 
 
@@ -145,21 +148,21 @@ def test_a_start_that_is_not_slow_succeeds(seed):
         return chunk(seen) if next(steps) < 6 else plan(seen)[:, 0]
 
     came = np.sum(lab.episodes_of(six_at_first, lab.WAIT).home())
-    assert came == pytest.approx((99, 100, 100)[seed - 1], abs=3)
-    assert home(plan, 1, lab.WAIT) == pytest.approx((52, 67, 50)[seed - 1], abs=ABOUT)
-    assert "99, 100 and 100 of 100 runs succeed for three seeds" in SENTENCES
-    assert "it is 52, 67 and 50 runs" in SENTENCES
+    assert came == pytest.approx((99, 100, 98)[seed - 1], abs=3)
+    assert home(plan, 1, lab.WAIT) == pytest.approx((43, 60, 38)[seed - 1], abs=ABOUT)
+    assert "99, 100 and 98 of 100 runs succeed for three seeds" in SENTENCES
+    assert "Without this change 43, 60 and 38 runs succeed" in SENTENCES
 
 
 @pytest.mark.kit
 @pytest.mark.parametrize(
     ("beta", "seed", "dock", "elsewhere", "came"),
     [
-        (0.01, 1, 3.1, 2.5, 0),
-        (0.03, 1, 1.8, 0.8, 25),
-        (0.1, 1, 1.0, 0.1, 85),
-        (0.1, 2, 1.1, 0.1, 85),
-        (0.3, 1, 0.0, 0.0, 85),
+        (0.01, 1, 3.0, 2.6, 0),
+        (0.03, 1, 1.7, 0.9, 5),
+        (0.1, 1, 0.9, 0.1, 85),
+        (0.1, 2, 1.0, 0.1, 80),
+        (0.3, 1, 0.01, 0.0, 90),
         (1.0, 1, 0.0, 0.0, 90),
     ],
 )
@@ -175,16 +178,16 @@ def test_the_table_of_beta(beta, seed, dock, elsewhere, came):
 
 @pytest.mark.kit
 def test_a_dead_z_does_not_turn_the_side_and_a_live_one_does():
-    for beta, share in ((0.1, 0.96), (0.3, 0.08)):
+    for beta, share in ((0.1, 0.95), (0.3, 0.11)):
         model = latent(1, BETA=beta)
         differ = np.mean(lab.sides(model, -1.5) != lab.sides(model, 1.5))
         assert differ == pytest.approx(share, abs=0.04)
-    assert "the side changes in 8 % of the starts for $\\beta$ = 0.3" in SENTENCES
-    assert "changes its side in 96 % of the starts" in SENTENCES
+    assert "the side changes in 11 % of the starts for $\\beta$ = 0.3" in SENTENCES
+    assert "changes its side in 95 % of the starts" in SENTENCES
 
 
 @pytest.mark.kit
-@pytest.mark.parametrize(("beta", "std", "came"), [(0.01, 1.0, 1), (0.1, 0.3, 100)])
+@pytest.mark.parametrize(("beta", "std", "came"), [(0.01, 1.0, 0), (0.1, 0.4, 100)])
 def test_a_cheap_z_changes_along_an_episode(beta, std, came):
     model = latent(1, BETA=beta)
     mu = model.encode()[0].reshape(lab.DEMOS, day15_mujoco.STEPS)
@@ -193,8 +196,8 @@ def test_a_cheap_z_changes_along_an_episode(beta, std, came):
     policy = chunking.chunked_policy(lambda seen: model.plan(seen, mu[:, :1]), lab.H)
     run = day15_mujoco.run(*day15_mujoco.scene(), start, policy)
     assert np.sum(run.home()) == pytest.approx(came, abs=2)
-    assert "standard deviation of 1.0 (0.3 for $\\beta$ = 0.1)" in SENTENCES
-    assert "only 1 of 100 demonstrations is repeated" in SENTENCES
+    assert "standard deviation of 1.0 (0.4 for $\\beta$ = 0.1)" in SENTENCES
+    assert "from none of the 100 demonstrated starts" in SENTENCES
 
 
 def by_variance(mu, logvar, noise):
@@ -270,11 +273,12 @@ def test_the_noise_that_is_left_is_that_of_entries_of_different_sizes():
     for now in seen[:, :-1].transpose(1, 0, 2):
         errors.append(plan(now + lab.NOISE * rng.normal(size=now.shape)) - plan(now))
     s = np.std(errors, axis=(0, 1, 3))
-    assert s[7] / s[0] == pytest.approx(0.45, abs=0.02)
-    assert "only 45 % of the change of the first entry" in SENTENCES
+    assert s[7] / s[0] == pytest.approx(0.47, abs=0.03)
+    assert "only 47 % of the change of the first entry" in SENTENCES
     predicted = np.sqrt(np.sum(s**2)) / (8 * s[0])
-    assert predicted == pytest.approx(0.256, abs=0.006)
-    assert lab.noise_left(latent(), rng) == pytest.approx(predicted, abs=0.01)
+    assert predicted == pytest.approx(0.27, abs=0.01)
+    assert lab.noise_left(latent(), rng) == pytest.approx(predicted, abs=0.02)
+    assert "/ (8 s_0)$ gives 0.27" in SENTENCES
 
 
 @pytest.mark.kit
@@ -283,12 +287,12 @@ def test_a_larger_decay_executes_older_plans():
     for decay in (0.3, 1.0):
         policy = chunking.ensembled_policy(latent().with_z(), lab.K, decay)
         came.append(np.sum(lab.episodes_of(policy).home()))
-    assert came == pytest.approx([45, 15], abs=ABOUT)
-    assert "about 45 and 15 of 100 runs succeed" in SENTENCES
+    assert came == pytest.approx([35, 10], abs=ABOUT)
+    assert "about 35 and 10 of 100 runs succeed" in SENTENCES
 
 
 @pytest.mark.kit
 def test_half_the_price_makes_up_for_a_chunk_twice_as_long():
     dear, _ = divergences(latent(1, K=16))
     cheap, _ = divergences(latent(1, K=16, BETA=0.05))
-    assert dear < np.log(2) < 1.0 < cheap
+    assert dear < np.log(2) < 1.3 < cheap

@@ -27,7 +27,7 @@ H = 4  # of these, executed before it plans again
 STARTS_SEED = 1000  # of the starts that policies are tested on, and of their z
 TESTED = 100  # starts
 UNITS = 64  # of each hidden layer
-UPDATES = 1500  # steps of Adam
+UPDATES = 1000  # steps of Adam
 BATCH = 256  # rows of a step
 RATE = 0.003  # step size at the first update; it falls to 0 as a cosine
 BETA = 0.1  # weight of the KL divergence
@@ -506,7 +506,7 @@ def check_ensemble(lab: Lab, rng: np.random.Generator) -> None:
 def noise_left(latent: Latent, rng: np.random.Generator) -> float:
     """Return what the mean of K plans leaves of the noise of a single plan.
 
-    Along runs without noise each step's observation is disturbed anew.
+    A new noise is added to each observation of runs without noise.
     """
     plan = latent.with_z()
     seen = episodes_of(chunking.chunked_policy(plan, H)).observation
