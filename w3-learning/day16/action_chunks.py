@@ -26,7 +26,7 @@ def _(rng):
     yield *several(rng, (2, 4, 3), 2), 3
     yield *several(rng, (2, 1), 2), 5  # K exceeds every episode
     yield *several(rng, (3, 3), 3), 1
-    yield *several(rng, (2, 3, 2), 2, (7, 2, 7)), 4  # a number that comes again
+    yield *several(rng, (2, 1, 3), 2, (7, 2, 7)), 4  # a number that comes again
     yield *several(rng, (3, 2, 4), 1, (5, 3, 4)), 3  # numbers that are not sorted
     first, second = (int(n) for n in rng.integers(1, 5, 2))
     yield *several(rng, (first, second), 2), int(rng.integers(2, 5))

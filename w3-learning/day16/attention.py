@@ -48,18 +48,14 @@ row.cases(
 
 @row.wrongs
 def _(q, k, v):
-    """root-forgotten: in your code, the products are not divided by sqrt(d)
-    divided-by-d: in your code, the products are divided by d. Divide by its square root
-    wrong-axis: your weights add up to 1 over the queries. The weights of each query add
-      up to 1 over the keys
+    """wrong-axis: your weights add up to 1 over the queries. The weights of each query
+      add up to 1 over the keys
     one-softmax: in your code, all weights together add up to 1. The weights of each
       query add up to 1
     no-softmax: in your code, the products themselves are the weights. Apply the softmax
       to each row
     best-only: your function returns the value of the best key. Attention is a weighted
       mean of all values
-    root-of-m: in your code, the products are divided by the root of the number of keys.
-      Divide by the root of d, the number of columns of q
     """
     d = q.shape[1]
     raw = q @ k.T
@@ -69,13 +65,10 @@ def _(q, k, v):
         return (w / w.sum(axis=axis, keepdims=True)) @ v
 
     return {
-        "root-forgotten": soft(raw),
-        "divided-by-d": soft(raw / d),
         "wrong-axis": soft(raw / np.sqrt(d), axis=0),
         "one-softmax": soft(raw / np.sqrt(d), axis=None),
         "no-softmax": raw / np.sqrt(d) @ v,
         "best-only": v[np.argmax(raw, axis=1)],
-        "root-of-m": soft(raw / np.sqrt(len(k))),
     }
 
 

@@ -43,14 +43,10 @@ def _(x, d, W1, b1, W2, b2, W3, b3):
       Multiply by 1 - h^2 of the first layer before W1^T
     dx-with-input-slope: your gradient of x is multiplied by 1 - x^2. The input is not
       an output of tanh, so there is no such factor
-    slope-forgotten: in your code, the derivative of tanh is missing. Each hidden
-      layer's gradient is multiplied by 1 - h^2, where h is the layer's output
     slope-of-h: in your code, the derivative of tanh is computed as 1 - tanh(h)^2 from
       the layer's output h. The output is tanh already, so the derivative is 1 - h^2
     mse-again: in your code, d is divided by the number of its entries and doubled, as
       in the gradient of a mean squared error. d is the gradient already
-    bias-mean: your gradients of the biases are means over the rows. Sum over the rows:
-      d contains the factor of any mean
     dx-mean: your gradient of x is a mean over the rows. Each row of x has a gradient of
       its own
     slope-at-the-end: in your code, d is multiplied by a derivative of tanh. The last
@@ -77,10 +73,8 @@ def _(x, d, W1, b1, W2, b2, W3, b3):
     return {
         "dx-before-the-slope": (*right[:6], d2 @ W2.T @ W1.T),
         "dx-with-input-slope": (*right[:6], right[6] * (1 - x**2)),
-        "slope-forgotten": back(d, lambda h: 1 + 0 * h),
         "slope-of-h": back(d, lambda h: 1 - np.tanh(h) ** 2),
         "mse-again": back(2 * d / d.size),
-        "bias-mean": tuple(g / len(x) if g.ndim == 1 else g for g in right),
         "dx-mean": (*right[:6], right[6] / len(x)),
         "slope-at-the-end": back(d * (1 - out**2)),
         "dx-of-the-hidden": lambda: (*right[:6], d2 @ W2.T),
@@ -139,6 +133,6 @@ def _(x, d, W1, b1, W2, b2, W3, b3):
 @row.spans
 def _(rng):
     x = rng.numbers(-1, 1, 3, 2)
-    for size in (1e-3, 4.0):
+    for size, of_d in ((1e-3, 1e-5), (4.0, 10.0)):
         arrays = (size * a for a in net(rng, 2, 3, 2, 2))
-        yield 4.0 * x, 1e-3 * rng.numbers(-4, 4, 3, 2), *arrays
+        yield 4.0 * x, of_d * rng.numbers(-1, 1, 3, 2), *arrays

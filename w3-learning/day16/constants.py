@@ -1,7 +1,7 @@
-"""The sensitivity of Day 16's numbers: each constant doubled, measured and explained.
+"""The sensitivity of Day 16's numbers: each constant doubled, measured, explained."""
 
-The lab's own functions compute everything, and nothing is random.
-"""
+from types import SimpleNamespace
+from unittest.mock import patch
 
 import numpy as np
 
@@ -10,28 +10,69 @@ from labkit.lesson.day import find_day
 from labkit.lesson.lab_module import lab_of
 
 LAB = lab_of(find_day(16))
-# Each constant in words, with {} for its value.
+DAY = LAB.day15_mujoco
+SILENT = SimpleNamespace(training=lambda title, steps: range(1, steps + 1))
+
 numbers = Numbers(
-    link="length of the first link (the second is half as long): {} m",
-    q1="angle of joint 1: {} rad",
+    wait="pause: {} steps",
+    chunk="entries of a chunk: {}",
+    demos="demonstrations: {}",
+    seed="seed: {}",
+    updates="steps of Adam: {}",
+    beta="beta: {}",
+    plans="plans: {}",
+    decay="decay: {}",
 )
 
 
 @numbers.add(
-    "height of the end", "{:.3f} m",
-    link=times(2.0, "the arm is twice as large and has the same shape"),
-    q1=between(1.2, 1.5, "the whole arm points further up"),
+    "padding of the chunks", "{:.0f} %",
+    chunk=between(2.0, 2.2, "K (K - 1) / 2 of the K n entries: (K - 1) / (2 n)"),
+    wait=between(0.85, 0.92, "(K - 1) / (2 n), and n grows from 68 to 76 rows"),
+    demos=same("each episode has the same padding"),
+    seed=same("each episode has the same length"),
 )  # fmt: skip
-def height(link=1.0, q1=0.5):
-    """Return the height of the arm's end."""
-    return LAB.reach(q1, 1.0, link, link / 2)[1]
+def padding(chunk=LAB.PAUSE_K, wait=LAB.WAIT, demos=20, seed=LAB.SEED):
+    """Return the percentage of the entries that are padding."""
+    episodes = DAY.dock_demonstrations(demos, seed, coin=False, wait=wait)
+    return 100 * (1 - LAB.Data(episodes, chunk).mask.mean())
 
 
 @numbers.add(
-    "distance of the end from the base", "{:.3f} m",
-    link=times(2.0, "the arm is twice as large and has the same shape"),
-    q1=same("joint 1 rotates the whole arm about the base"),
+    "squared error: speed of the third entry", "{:.2f}",
+    wait=between(0.5, 0.65, "3 of 17 rows instead of 3 of 9"),
+    updates=between(0.9, 1.02, "the network is closer to the mean"),
+    seed=between(0.95, 1.05, "other demonstrations of the same kind", to=2),
 )  # fmt: skip
-def distance(link=1.0, q1=0.5):
-    """Return the distance of the arm's end from its base."""
-    return np.linalg.norm(LAB.reach(q1, 1.0, link, link / 2))
+def third(wait=LAB.WAIT, updates=LAB.UPDATES, seed=LAB.SEED):
+    """Return the speed of the third entry at the dock."""
+    with patch.multiple(LAB, WAIT=wait, UPDATES=updates, SEED=seed):
+        episodes = DAY.dock_demonstrations(LAB.DEMOS, seed, coin=False, wait=wait)
+        data = LAB.Data(episodes, LAB.PAUSE_K)
+        net = LAB.train_chunks(SILENT, "", data, LAB.masked_l2)
+        return LAB.speeds(data, net, episodes)[2]
+
+
+@numbers.add(
+    "KL divergence at the dock, nats", "{:.1f}",
+    beta=between(0.0, 0.5, "a nat costs twice as much, and z collapses"),
+    chunk=between(0.4, 0.7, "the side concerns early entries, half of the mean"),
+    seed=between(0.8, 1.2, "another coin of the same kind", to=2),
+)  # fmt: skip
+def dock(beta=LAB.BETA, chunk=LAB.K, seed=LAB.SEED):
+    """Return the mean KL divergence of the rows at the dock."""
+    episodes = DAY.dock_demonstrations(LAB.DEMOS, seed)
+    with patch.multiple(LAB, BETA=beta, SEED=seed):
+        model = LAB.Latent(SILENT, LAB.Data(episodes, chunk))
+    kl = LAB.kl_to_prior(*model.encode())
+    return kl[model.data.first].mean()
+
+
+@numbers.add(
+    "noise of the mean of equally wrong plans", "{:.3f}",
+    plans=times(1 / np.sqrt(2), "1 / sqrt(k) for almost equal weights"),
+    decay=same("the weights are still almost equal"),
+)  # fmt: skip
+def noise(plans=LAB.K, decay=LAB.DECAY):
+    """Return the standard deviation of the mean of independent errors."""
+    return LAB.ensemble_noise(plans, decay)

@@ -59,15 +59,11 @@ def _(pred, target, mask):
       Multiply their errors by the mask
     gradient-unmasked: your loss is right, but your gradient is not 0 for padded
       entries. They have no effect on the loss
-    columns-forgotten: your sum is divided by the sum of the mask alone. Each entry of
-      the mask stands for m numbers: divide by m times the sum
     squared: your loss is the mean of the squared errors. Take their absolute values
     mean-of-means: your result is the mean over the rows of one mean per row. Take one
       mean over all entries that exist, so that each has the same weight
     gradient-not-divided: your gradient is the sign of the error. The loss is a mean,
       so divide the gradient by the same number
-    gradient-of-the-square: your gradient is the error itself, as for a squared error.
-      The derivative of |e| is the sign of e
     divided-by-rows: in your code, the sum is divided by the number of rows. Divide by
       the number of existing entries, times m
     """
@@ -83,11 +79,9 @@ def _(pred, target, mask):
         "mask-forgotten": (size.mean(), sign / e.size),
         "loss-unmasked": (size.mean(), grad),
         "gradient-unmasked": (loss, sign / total),
-        "columns-forgotten": (loss * m, grad * m),
         "squared": (np.sum(w * e**2) / total, 2 * w * e / total),
         "mean-of-means": (np.sum(each * size), each * sign),
         "gradient-not-divided": (loss, w * sign),
-        "gradient-of-the-square": (loss, w * e / total),
         "divided-by-rows": (np.sum(w * size) / len(e), w * sign / len(e)),
     }
 

@@ -26,22 +26,13 @@ row.cases(
 def _(mu, logvar, noise):
     """exp-of-logvar: in your code, the noise is multiplied by the variance. Multiply by
       the standard deviation, its square root
-    logvar-for-std: in your code, the noise is multiplied by logvar / 2. The standard
-      deviation is the exponential of this number
     base-2: in your code, logvar is a logarithm to the base 2. It is the natural
       logarithm
-    precision: in your code, the noise is divided by the standard deviation. Multiply
-      by it
-    one-noise: in your code, the first row of the noise is used for all rows. Each row
-      has a sample of its own
     """
     std = np.exp(logvar / 2)
     return {
         "exp-of-logvar": mu + std**2 * noise,
-        "logvar-for-std": mu + logvar / 2 * noise,
         "base-2": mu + 2 ** (logvar / 2) * noise,
-        "precision": mu + noise / std,
-        "one-noise": mu + std * noise[0],
     }
 
 
@@ -63,3 +54,4 @@ def _(rng):
     mu, noise = rng.numbers(-1, 1, 2, 3, 1)
     for logvar in (-12.0, 4.0):
         yield 5 * mu, np.full((3, 1), logvar), 4 * noise
+    yield 1e-3 * mu, 1e-3 * noise, 1e-3 * mu

@@ -10,8 +10,7 @@ row = Row(Vector((None,)))
 @row.inputs
 def _(rng):
     yield 1, 3
-    for wait, K in ((6, 8), (0, 3), (2, 5), (5, 2), (3, 4), (9, 12), (4, 1)):
-        yield wait, K
+    yield from ((6, 8), (0, 3), (2, 5), (5, 2), (3, 4), (9, 12), (4, 1))
     yield int(rng.integers(0, 12)), int(rng.integers(1, 14))
 
 
@@ -29,10 +28,6 @@ def _(wait, K):
       steps has w + 1 rows with the same observation
     not-clamped: your fractions exceed 1. After the longest wait all chunks have
       started
-    entry-from-0: your first entry is 0. In one of the rows, no step remains, so its
-      chunk starts with its first entry
-    remaining: your result is the fraction of the chunks that still stand still.
-      Return the fraction that has started
     one-jump: your result is 0 before the entry `wait` and 1 from there on, as in the
       chunk of the first row. Average over the rows of the pause
     """
@@ -42,8 +37,6 @@ def _(wait, K):
         "majority": 1.0 * (right > 0.5),
         "wait-not-plus-1": np.minimum(1, (j + 1) / max(wait, 1)),
         "not-clamped": (j + 1) / (wait + 1),
-        "entry-from-0": np.minimum(1, j / (wait + 1)),
-        "remaining": 1 - right,
         "one-jump": 1.0 * (j >= wait),
     }
 

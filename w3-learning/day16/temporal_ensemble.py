@@ -41,8 +41,6 @@ row.cases(
 def _(plans, decay):
     """newest-first: your largest weight for a positive decay belongs to the newest
       plan. The plans are given the oldest first, and the oldest has the weight exp(0)
-    plus: in your code, the weights grow as exp(decay i). They are proportional to
-      exp(-decay i)
     first-entries: in your code, the first entry of each plan is averaged. The first
       entry of an old plan was for an earlier step: take the entry for now
     same-entry: in your code, entry i of plan i is used, as if plan 0 were the newest.
@@ -51,10 +49,6 @@ def _(plans, decay):
       action for now at the entry k - 1 - i
     counted-from-the-end: in your code, entry K - 1 - i of plan i is used. The newest of
       k plans has its first entry for now, so take entry k - 1 - i
-    not-normalised: in your code, the weights are not divided by their sum. Plans that
-      agree should be executed unchanged
-    divided-by-k: in your code, the sum is divided by the number of plans. Divide by the
-      sum of the weights
     """
     k, K, _ = plans.shape
     i = np.arange(k)
@@ -66,13 +60,10 @@ def _(plans, decay):
 
     return {
         "newest-first": mean(weight[::-1], now),
-        "plus": mean(1 / weight, now),
         "first-entries": mean(weight, plans[:, 0]),
         "same-entry": mean(weight, plans[i, i]),
         "last-entries": mean(weight, plans[:, -1]),
         "counted-from-the-end": mean(weight, plans[i, K - 1 - i]),
-        "not-normalised": weight @ now,
-        "divided-by-k": weight @ now / k,
     }
 
 
