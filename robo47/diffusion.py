@@ -63,7 +63,7 @@ def linear_schedule(T: int, first: float = 1e-4, last: float = 0.02) -> Array:
         ValueError: no level.
     """
     _count(T, "T")
-    return np.cumprod(1.0 - np.linspace(first, last, T, dtype=np.float64))
+    return np.cumprod(1.0 - np.linspace(first, last, T), dtype=np.float64)
 
 
 def add_noise(x0: ArrayLike, noise: ArrayLike, abar: ArrayLike) -> Array:
