@@ -47,8 +47,7 @@ def frames() -> Iterator[Frame]:
 def crystallising(planner, state: np.ndarray, noise: np.ndarray) -> list[np.ndarray]:
     """Return the plans before and after each denoising step, m/s, (n, 8, 2) each."""
     z = cloning.normalise(np.tile(state, (len(noise), 1)), planner.seen)
-    levels = lab.timesteps(lab.PLAN_LEVELS, lab.DENOISING)
-    abars = lab.cosine_schedule(lab.PLAN_LEVELS)[levels]
+    abars = lab.levels(lab.PLAN_LEVELS, lab.DENOISING)
     stages = [noise]
     for abar, prev in zip(abars, [*abars[1:], 1.0], strict=True):
         eps = planner.noise(z, stages[-1], abar)

@@ -23,11 +23,6 @@ def mixture(sigma):
     return LAB.MEANS, sigma, LAB.WEIGHTS
 
 
-def cosine(levels, steps):
-    """Return the levels of some steps of the cosine schedule."""
-    return LAB.cosine_schedule(levels)[LAB.timesteps(levels, steps)]
-
-
 @numbers.add(
     "fraction in the right mode, linear schedule", "{:.2f}",
     levels=between(1.05, 1.15, "less signal is left at the noisy end"),
@@ -53,7 +48,7 @@ def linear(levels=LAB.LEVELS, last=0.02, sigma=LAB.SIGMA, samples=LAB.SAMPLES //
 )  # fmt: skip
 def ddim(steps=10, sigma=LAB.SIGMA, levels=LAB.LEVELS):
     """Return the product of the cosines."""
-    return LAB.width_kept(cosine(levels, steps), sigma)
+    return LAB.width_kept(LAB.levels(levels, steps), sigma)
 
 
 @numbers.add(

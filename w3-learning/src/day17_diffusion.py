@@ -212,6 +212,11 @@ def ema(slow: np.ndarray, fast: np.ndarray, k: int) -> np.ndarray:
     # endregion 17.10
 
 
+def levels(T: int, steps: int) -> np.ndarray:
+    """Return abar of the levels that a sampler uses, from the noisiest."""
+    return cosine_schedule(T)[np.asarray(timesteps(T, steps), dtype=int)]
+
+
 def ddim(x: np.ndarray, abars: np.ndarray, noise_of) -> np.ndarray:
     """Return samples from the starts x; noise_of(x, abar) returns the noise in x."""
     for abar, prev in zip(abars, [*abars[1:], 1.0], strict=True):
@@ -296,9 +301,9 @@ def check_steps(lab: Lab, rng: np.random.Generator) -> None:
     off = []
     for T, n in ((100, 7), (50, 10), (9, 9), (9, 1)):
         even = np.linspace(T - 1, 0, n)
-        levels = timesteps(T, n)
-        off.append(np.maximum(np.abs(levels - even) - 0.5, 0).max())
-        off.append(np.abs(levels - np.rint(levels)).max())
+        some = timesteps(T, n)
+        off.append(np.maximum(np.abs(some - even) - 0.5, 0).max())
+        off.append(np.abs(some - np.rint(some)).max())
     lab.check("timesteps: distance to equal spacing - 0.5", off)
 
 
@@ -350,13 +355,15 @@ def sample_mixture(lab: Lab, rng: np.random.Generator) -> None:
     """Print the samples of each sampler from the same starts, and of both schedules."""
     start = quantiles(SAMPLES)
     print(HEADER)
-    abars = cosine_schedule(LEVELS)
     for steps in STEPS:
-        x = ddim(start, abars[timesteps(LEVELS, steps)], noise_of)
+        x = ddim(start, levels(LEVELS, steps), noise_of)
         table(f"DDIM, {steps} steps", x)
     lab.record("right_mode", np.mean(x > 0) - WEIGHTS[1], metric="off",
                label="|fraction - 0.7|")  # fmt: skip
-    table(f"DDPM, {LEVELS} steps", ddpm(start, abars[::-1], noise_of, rng))
+    table(
+        f"DDPM, {LEVELS} steps",
+        ddpm(start, cosine_schedule(LEVELS)[::-1], noise_of, rng),
+    )
     linear = diffusion.linear_schedule(LEVELS)
     x = ddim(start, linear[::-1], noise_of)
     table("DDIM, 100 steps, linear", x)
@@ -388,13 +395,11 @@ def widths(sampler, paper) -> tuple[dict, np.ndarray]:
 
 def ddim_widths(lab: Lab) -> None:
     """Compare the width after DDIM steps with your product of cosines."""
-
-    def levels(steps: int) -> np.ndarray:
-        return cosine_schedule(LEVELS)[timesteps(LEVELS, steps)]
-
     measured, off = widths(
-        lambda x, steps: ddim(x, levels(steps), lambda x, a: exact_noise(x, a, *ONE)),
-        lambda steps: width_kept(levels(steps), SIGMA),
+        lambda x, steps: ddim(
+            x, levels(LEVELS, steps), lambda x, abar: exact_noise(x, abar, *ONE)
+        ),
+        lambda steps: width_kept(levels(LEVELS, steps), SIGMA),
     )
     lab.measured("width / sigma after 10 DDIM steps", measured[10])
     lab.record("width", off, metric="off", label="|measured - paper|")
@@ -455,8 +460,7 @@ def noisy_plans(plans: np.ndarray, rng: np.random.Generator):
         t = rng.uniform(size=len(plans))
         x, velocity = flow_pair(plans, noise, t)
         return x, t, velocity
-    levels = rng.integers(0, PLAN_LEVELS, len(plans))
-    abar = cosine_schedule(PLAN_LEVELS)[levels]
+    abar = rng.choice(cosine_schedule(PLAN_LEVELS), len(plans))
     return add_noise(plans, noise, abar), time_of(abar), noise
 
 
@@ -483,7 +487,7 @@ class Planner:
         if METHOD == "flow":
             x = flow(noise, steps, lambda x, t: self.velocity(z, x, t))
         else:
-            abars = cosine_schedule(PLAN_LEVELS)[timesteps(PLAN_LEVELS, steps)]
+            abars = levels(PLAN_LEVELS, steps)
             x = ddim(noise, abars, lambda x, abar: self.noise(z, x, abar))
         return cloning.denormalise(x, self.plans).reshape(-1, ACTIONS, 2)
 
