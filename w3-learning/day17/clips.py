@@ -17,7 +17,8 @@ from labkit.lesson.day import find_day
 from robo47 import cloning, push
 
 PLANS = 40  # that are drawn; the first one is executed
-SHOWN = 8  # replans
+REPLANS = 14
+SLOWLY = 3  # replans whose steps are all shown; of the others every fifth
 MM = 1000.0
 
 
@@ -27,10 +28,10 @@ def frames() -> Iterator[Frame]:
     planner = figures.planner()
     state = push.dock(lab.TESTED, np.random.default_rng(lab.STARTS_SEED))[figures.START]
     rng = np.random.default_rng(lab.SEED)
-    for _ in range(SHOWN):
+    for k in range(REPLANS):
         noise = rng.normal(size=(PLANS, 2 * lab.ACTIONS))
         stages = crystallising(planner, state, noise)
-        for plans in stages:
+        for plans in stages if k < SLOWLY else stages[::5]:
             paths = figures.paths(plans, state)
             yield Frame(_moment(paths, state)(), 0.6 if plans is stages[-1] else 0.15)
         chosen = stages[-1][:1]
