@@ -1,0 +1,71 @@
+"""17.2 `add_noise(x0, noise, abar)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row, Slip
+
+row = Row(
+    Matrix((None, None)),
+    slips=(
+        Slip(
+            "^ValueError: operands could not be broadcast",
+            r"abar",
+            "one-per-row",
+            "Your function stops because abar (n,) is multiplied by an array (n, d). "
+            "abar has one number per row, so make it a column: abar[:, None].",
+        ),
+    ),
+)
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[1.0]]), np.array([[0.5]]), np.array([0.36])
+    for n, d in ((3, 2), (2, 4), (4, 1), (3, 3)):
+        yield rng.numbers(-2, 2, n, d), rng.numbers(-2, 2, n, d), rng.numbers(0, 1, n)
+    yield rng.numbers(-2, 2, 3, 2), rng.numbers(-2, 2, 3, 2), np.array([0.0, 0.5, 1])
+
+
+row.cases(
+    one_column=lambda x0, noise, abar: x0.shape[1] == 1,
+    several_columns=lambda x0, noise, abar: x0.shape[1] > 1,
+)
+
+
+row.at_least_0(abar="a fraction")
+
+
+@row.wrongs
+def _(x0, noise, abar):
+    """roots-forgotten: your factors are abar and 1 - abar. These are fractions of the
+      power, so the factors are their square roots
+    noise-root-forgotten: your noise has the factor 1 - sqrt(abar). The powers add up to
+      1, so the factor is sqrt(1 - abar)
+    """
+    a = abar[:, None]
+    keep = np.sqrt(a)
+    return {
+        "roots-forgotten": a * x0 + (1 - a) * noise,
+        "noise-root-forgotten": keep * x0 + (1 - keep) * noise,
+    }
+
+
+@row.right  # Row by row.
+def _(x0, noise, abar):
+    rows = []
+    for data, eps, a in zip(x0, noise, abar):
+        rows.append(a**0.5 * data + (1 - a) ** 0.5 * eps)
+    return np.array(rows)
+
+
+@row.right  # By the angle whose cosine is the root.
+def _(x0, noise, abar):
+    angle = np.arccos(np.sqrt(abar))
+    return (np.cos(angle) * x0.T + np.sin(angle) * noise.T).T
+
+
+@row.spans
+def _(rng):
+    for size in (1e-3, 10.0):
+        x0, noise = size * rng.numbers(-1, 1, 2, 3, 2)
+        yield x0, noise, np.array([2e-7, 0.9999, 0.5])

@@ -1,0 +1,125 @@
+"""17.9 `exact_velocity(x, t, means, sigma, weights)`: its questions and mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row
+
+from .modes import mixtures, posterior
+
+row = Row(Matrix((None, None)))
+TWO = np.array([[-1.0], [1]])
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[0.5]]), 0.5, TWO, 0.1, np.array([0.5, 0.5])
+    for x, means, sigma, weights in mixtures(rng):
+        yield x, float(rng.numbers(0.1, 0.9)), means, sigma, weights
+    x, means, sigma, weights = next(mixtures(rng))
+    yield x, 0.0, means, sigma, weights
+    yield x, 1.0, means, sigma, weights
+    yield x, 0.5, means, 0.0, weights
+    yield 40 * x, 0.8, means, sigma, weights  # far from all modes
+
+
+row.cases(
+    one_mode=lambda x, t, means, *_: len(means) == 1,
+    several_modes=lambda x, t, means, *_: len(means) > 1,
+)
+row.cases(
+    equal_weights=lambda *given: bool(np.ptp(given[-1]) == 0),
+    different_weights=lambda *given: bool(np.ptp(given[-1]) > 0),
+)
+
+
+row.at_least_0(t="from 0 to 1", sigma="a standard deviation", weights="probabilities")
+
+
+@row.wrongs
+def _(x, t, means, sigma, weights):
+    """data-width-forgotten: in your code, the variance of x in a mode is (1 - t)^2. The
+      data have a width as well, so it is t^2 sigma^2 + (1 - t)^2
+    nearest-mode: in your code, each row belongs to its nearest mode alone. Take the
+      mean over all modes, weighted with their probabilities given x
+    weights-only: in your code, the probability of a mode does not depend on x. Multiply
+      its weight by its density at x and normalise
+    clean: your result is the mean of the data given x. Return the mean of data - noise
+    minus-x: your result is the mean of the data minus x, the distance that is left. The
+      velocity is this distance divided by the remaining time 1 - t
+    means-only: your velocity in a mode is the mode's mean. It also depends on the
+      distance of x from t times this mean
+    time-reversed: in your code, t runs from the data to the noise. In this lab it runs
+      from the noise at t = 0 to the data at t = 1
+    diffusion-roots: your factors of data and noise are sqrt(t) and sqrt(1 - t), as in
+      diffusion. In flow matching they are t and 1 - t
+    overflow: all densities of a row far from the modes are 0 in your code, and 0 / 0 is
+      NaN. Subtract the row's largest exponent before you call exp
+    overflow 2: in your code, one number is subtracted from the exponents of all rows.
+      Subtract each row's own largest exponent, or a row far from the modes gives 0 / 0
+    """
+    given = x, t, 1 - t, means, sigma, weights
+
+    def data(prob, off, variance, keep=t):  # the mean of the data
+        return np.sum(prob * (means + keep * sigma**2 / variance * off), axis=1)
+
+    def velocity(prob, off, variance, keep=t, lose=1 - t):
+        slope = (keep * sigma**2 - lose) / variance
+        return np.sum(prob * (means + slope * off), axis=1)
+
+    prob, off, variance = posterior(*given)
+    nearest = np.zeros(prob.shape)
+    at = np.argmin(np.sum(off**2, axis=2), axis=1)
+    nearest[np.arange(len(x)), at] = 1
+    alone = np.broadcast_to((weights / weights.sum())[:, None], prob.shape)
+    power = -np.sum(off**2, axis=2) / (2 * variance)
+    plain, once = (weights * np.exp(power - most) for most in (0, power.max()))
+    plain = plain / plain.sum(axis=1, keepdims=True)
+    once = once / once.sum(axis=1, keepdims=True)
+    roots = np.sqrt(t), np.sqrt(1 - t)
+    rooted = posterior(x, *roots, means, sigma, weights)
+    back = posterior(x, 1 - t, t, means, sigma, weights)
+    return {
+        "data-width-forgotten": velocity(*posterior(*given, wide=False)),
+        "nearest-mode": velocity(nearest, off, variance),
+        "weights-only": velocity(alone, off, variance),
+        "clean": data(prob, off, variance),
+        "minus-x": data(prob, off, variance) - x,
+        "means-only": np.sum(prob * means, axis=1),
+        "time-reversed": velocity(*back, 1 - t, t),
+        "diffusion-roots": velocity(*rooted, *roots),
+        "overflow": velocity(plain[..., None], off, variance),
+        "overflow 2": velocity(once[..., None], off, variance),
+    }
+
+
+@row.right  # From the mean of the data: the distance over the remaining time.
+def _(x, t, means, sigma, weights):
+    v = (t * sigma) ** 2 + (1 - t) ** 2
+    logs = np.log(weights) - ((x[:, None] - t * means) ** 2).sum(-1) / (2 * v)
+    prob = np.exp(logs - logs.max(axis=1)[:, None])
+    prob /= prob.sum(axis=1)[:, None]
+    centre = prob @ means
+    data = centre + t * sigma**2 / v * (x - t * centre)
+    noise = (1 - t) / v * (x - t * centre)
+    return data - noise
+
+
+@row.right  # Mode by mode, with the covariance of x and the velocity.
+def _(x, t, means, sigma, weights):
+    variance = t * t * sigma * sigma + (1 - t) * (1 - t)
+    covariance = t * sigma * sigma - 1 + t
+    squares = [((x - t * m) ** 2).sum(axis=1) for m in means]
+    least = np.min(squares, axis=0)
+    total = np.zeros(x.shape)
+    parts = np.zeros((len(x), 1))
+    for m, w, square in zip(means, weights, squares):
+        p = (w * np.exp((least - square) / (2 * variance)))[:, None]
+        total += p * (m + covariance / variance * (x - t * m))
+        parts += p
+    return total / parts
+
+
+@row.spans
+def _(rng):
+    yield np.array([[-3.0], [4.0]]), 0.01, TWO, 0.1, np.array([0.3, 0.7])
+    yield np.array([[-1.0], [0.7]]), 0.99, TWO, 0.1, np.array([0.3, 0.7])

@@ -1,0 +1,74 @@
+"""17.8 `flow_pair(x0, noise, t)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row, Slip
+
+row = Row(
+    (
+        Matrix((None, None), called="the point"),
+        Matrix((None, None), called="the velocity"),
+    ),
+    slips=(
+        Slip(
+            "^ValueError: operands could not be broadcast",
+            r"\bt\b",
+            "one-per-row",
+            "Your function stops because t (n,) is multiplied by an array (n, d). "
+            "t has one number per row, so make it a column: t[:, None].",
+        ),
+    ),
+)
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[2.0]]), np.array([[1.0]]), np.array([0.25])
+    for n, d in ((3, 2), (2, 4), (4, 1), (3, 3)):
+        yield rng.numbers(-2, 2, n, d), rng.numbers(-2, 2, n, d), rng.numbers(0, 1, n)
+    yield rng.numbers(-2, 2, 3, 2), rng.numbers(-2, 2, 3, 2), np.array([0.0, 0.5, 1])
+
+
+row.at_least_0(t="from 0 to 1")
+
+
+@row.wrongs
+def _(x0, noise, t):
+    """diffusion-roots: your factors are the roots of t and 1 - t, as in diffusion. Flow
+      matching moves along a straight line: the factors are t and 1 - t
+    time-reversed: your point is the data at t = 0 and the noise at t = 1. In this lab,
+      t runs from the noise to the data
+    other-convention: in your code, t runs from the data to the noise, as in some
+      papers, and the velocity points to the noise. In this lab, t runs from noise to
+      data
+    to-go: your velocity is the distance that is left, x0 - x_t. The whole distance x0 -
+      noise takes the time 1, so it is the velocity
+    """
+    t = t[:, None]
+    at = (1 - t) * noise + t * x0
+    back = (1 - t) * x0 + t * noise
+    return {
+        "diffusion-roots": (np.sqrt(1 - t) * noise + np.sqrt(t) * x0, x0 - noise),
+        "time-reversed": (back, x0 - noise),
+        "other-convention": (back, noise - x0),
+        "to-go": (at, x0 - at),
+    }
+
+
+@row.right  # From the noise along the velocity.
+def _(x0, noise, t):
+    velocity = x0 - noise
+    return noise + t.reshape(-1, 1) * velocity, velocity
+
+
+@row.right  # Row by row.
+def _(x0, noise, t):
+    at = np.array([(1 - s) * e + s * x for x, e, s in zip(x0, noise, t)])
+    return at, np.array([x - e for x, e in zip(x0, noise)])
+
+
+@row.spans
+def _(rng):
+    for size in (1e-3, 10.0):
+        x0, noise = size * rng.numbers(-1, 1, 2, 3, 2)
+        yield x0, noise, np.array([0.001, 0.5, 0.999])

@@ -1,0 +1,71 @@
+"""17.6 `timesteps(T, n)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+row = Row(Vector((None,), called="the levels"))
+
+
+@row.inputs
+def _(rng):
+    # None of these has a level halfway between two whole numbers.
+    yield from ((50, 10), (10, 4), (7, 1), (1, 1), (9, 9), (100, 8), (9, 3))
+    yield from ((12, 2), (8, 6), (100, 100), (23, 6))
+    n, apart = rng.integers(2, 7, 2)
+    yield int(1 + (n - 1) * apart), int(n)
+
+
+row.cases(
+    one_step=lambda T, n: n == 1,
+    all_levels=lambda T, n: n == T > 1,
+    some_of_the_levels=lambda T, n: 1 < n < T,
+)
+
+
+row.at_least_0(T="a number of levels", n="a number of steps", answer="levels")
+
+
+@row.wrongs
+def _(T, n):
+    """leading: your levels are multiples of T // n, so the noisiest one, T - 1, is
+      missing. The samples start from noise, so the first level is T - 1
+    trailing: your levels are T / n apart from T - 1 on, so the last one is not 0. Use n
+      equally spaced numbers from T - 1 to 0
+    whole-steps: your levels are T // n apart, so their number is not always n and 0 may
+      be missing. Use n equally spaced numbers and round them
+    ascending: your levels are in ascending order. A sampler starts at the noisiest
+      level, T - 1
+    not-rounded: your levels are not rounded. They are indices of the schedule
+    """
+    even = np.linspace(T - 1, 0, n)
+    return {
+        "leading": (np.arange(n) * (T // n))[::-1],
+        "trailing": np.round(np.arange(T, 0, -T / n))[:n] - 1,
+        "whole-steps": np.arange(T - 1, -1, -(T // n)),
+        "ascending": np.rint(even[::-1] if n > 1 else even),
+        "not-rounded": even,
+    }
+
+
+@row.right  # One by one.
+def _(T, n):
+    return np.array([round((T - 1) * (1 - i / max(n - 1, 1))) for i in range(n)])
+
+
+@row.right  # From the last to the first.
+def _(T, n):
+    if n == 1:
+        return np.array([T - 1])
+    return np.floor(np.linspace(0, T - 1, n) + 0.5).astype(int)[::-1]
+
+
+@row.spans
+def _(rng):
+    yield 100, 20
+
+
+row.same(
+    "return (np.rint(np.linspace(T - 1, 0, n)).astype(int)).astype(np.float32)",
+    "whole numbers",
+)
