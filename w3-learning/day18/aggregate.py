@@ -1,0 +1,92 @@
+"""18.2 `aggregate(first, second)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row, Vector
+
+row = Row((
+    Matrix((None, None), called="the observations"),
+    Matrix((None, None), called="the actions"),
+    Vector((None,), called="the episodes"),
+))  # fmt: skip
+
+
+def rows(rng, episode, d=2, m=1):
+    """Return rows of these episodes: observations, actions, numbers."""
+    n = len(episode)
+    return rng.numbers(-1, 1, n, d), rng.numbers(-1, 1, n, m), np.array(episode)
+
+
+@row.inputs
+def _(rng):
+    yield rows(rng, [0, 3]), rows(rng, [0, 1])
+    yield rows(rng, [0]), rows(rng, [0])
+    yield rows(rng, [2, 2, 0, 0, 0], 3, 2), rows(rng, [0, 0], 3, 2)  # not in order
+    yield rows(rng, [4, 4, 1]), rows(rng, [0, 1, 1, 2])
+    yield rows(rng, [0, 0, 1, 1]), rows(rng, [1, 0])
+    for _ in range(5):
+        one = rng.permutation(rng.integers(2, 9, int(rng.integers(2, 6))))
+        other = np.sort(rng.integers(0, 3, int(rng.integers(1, 5))))
+        d, m = rng.integers(1, 4, 2)
+        yield rows(rng, one, d, m), rows(rng, other - other.min(), d, m)
+
+
+@row.wrongs
+def _(first, second):
+    """numbers-collide: the numbers of the second data set are unchanged in your
+      result, so episodes of the two sets have the same number. Add the largest
+      number in the first set plus 1
+    shift-by-last: your shift is the last number in the first data set plus 1. The
+      last number is not always the largest one
+    shared-number: your shift is the largest number in the first data set, so its
+      last episode and the first new one have the same number. Add 1
+    counted: your shift is the number of episodes in the first data set. If a number
+      is missing there, this is not larger than every number in use
+    counted-rows: your shift is the number of rows in the first data set. Episodes
+      go on after the largest number
+    new-only: the old rows are missing from your result. Return the rows of the
+      first data set, followed by those of the second
+    second-first: in your code, the rows of the second data set come first. Put them
+      after the rows of the first data set
+    renumbered: your code numbers all episodes again from 0. Keep the numbers of the
+      first data set
+    """
+    of, of_2 = first[2], second[2]
+    seen, done = (np.vstack([first[i], second[i]]) for i in (0, 1))
+    shifts = {
+        "numbers-collide": 0,
+        "shift-by-last": of[-1] + 1,
+        "shared-number": of.max(),
+        "counted": len(np.unique(of)),
+        "counted-rows": len(of),
+    }
+    new = of_2 + of.max() + 1
+    every = np.append(of, new)
+    return {
+        **{slug: (seen, done, np.append(of, of_2 + s)) for slug, s in shifts.items()},
+        "new-only": (second[0], second[1], new),
+        "second-first": (
+            np.vstack([second[0], first[0]]),
+            np.vstack([second[1], first[1]]),
+            np.append(new, of),
+        ),
+        "renumbered": (seen, done, np.unique(every, return_inverse=True)[1]),
+    }
+
+
+@row.right  # A loop over the rows of the second.
+def _(first, second):
+    seen, done, of = (list(one) for one in first)
+    free = max(of) + 1
+    for x, action, number in zip(*second, strict=True):
+        seen.append(x)
+        done.append(action)
+        of.append(free + number)
+    return np.array(seen), np.array(done), np.array(of)
+
+
+@row.right  # All three at once.
+def _(first, second):
+    x, y, z = second
+    z = z + 1 + np.max(first[2])
+    return tuple(np.concatenate(pair) for pair in zip(first, (x, y, z), strict=True))
