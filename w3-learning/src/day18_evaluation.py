@@ -22,6 +22,7 @@ import day15_mujoco
 SEED = 1  # of the demonstrations, the initial weights and the batches
 EACH = 10  # demonstrations, or runs of the policy, of a round
 ROUNDS = 3  # the first has demonstrations only
+DRIVES = 60  # actions of an episode, in which the policy drives; 60 are all of them
 WITH_LAST = False  # True: the policy also observes its last action, as the copycat
 STARTS_SEED = 1000  # of the starts that policies are tested on
 TESTED = 200  # starts
@@ -385,14 +386,14 @@ def train(lab: Lab, title: str, rows, weight: np.ndarray | None = None) -> Polic
     return Policy(net, inputs, actions)
 
 
-def dagger(lab: Lab, actions: int = day15_mujoco.STEPS, rounds: int = 0) -> Policy:
+def learned(lab: Lab, actions: int) -> Policy:
     """Return the policy after all rounds; in each the last policy drives some actions.
 
     With all actions this is DAgger. With none, each round has fresh demonstrations.
     """
     start = day15_mujoco.starts(EACH * ROUNDS, np.random.default_rng(SEED))
     policy, rows = None, None
-    for k, some in enumerate(np.split(start, ROUNDS)[: rounds or ROUNDS]):
+    for k, some in enumerate(np.split(start, ROUNDS)):
         new = collect(some, policy, actions)
         rows = new if rows is None else aggregate(rows, new)
         if actions or k == ROUNDS - 1:  # demonstrations need no policy on the way
@@ -416,8 +417,8 @@ def told(name: str, home: np.ndarray) -> None:
 
 def compare(lab: Lab) -> tuple[np.ndarray, np.ndarray]:
     """Train and test on fresh demonstrations and with DAgger; return both successes."""
-    fresh = outcomes(dagger(lab, actions=0))
-    own = outcomes(dagger(lab))
+    fresh = outcomes(learned(lab, 0))
+    own = outcomes(learned(lab, DRIVES))
     told("fresh demonstrations", fresh)
     told("DAgger", own)
     print(f"  only one of them succeeds on about {5 * round(np.sum(fresh ^ own) / 5)}")
@@ -445,8 +446,8 @@ def hesitation(lab: Lab) -> list[np.ndarray]:
     n = WAIT * (DAWDLERS // 2)
     found = []
     for title, some, weight in (
-        ("each row counts the same", rows, None),
-        ("each episode", rows, episode_weights(rows[2])),
+        ("equal weights of rows", rows, None),
+        ("equal weights of episodes", rows, episode_weights(rows[2])),
         ("without standing still", tuple(one[n:] for one in rows), None),
     ):
         found.append(outcomes(train(lab, title, some, weight), TESTED // 2))
@@ -477,6 +478,10 @@ def luck(lab: Lab, fresh: np.ndarray, own: np.ndarray) -> None:
     best = own[rng.integers(0, TESTED, (DRAWS, 6, 20))].mean(axis=2).max(axis=1)
     said(lab, "the best of six tests", best_of(rate, 20, 6), np.mean(best))
 
+    alarms = looks(rng, rate, DRAWS // 10)
+    print("  two equal policies, compared after every 10 starts up to 200:")
+    print(f"    p is at most 0.05 at least once in {100 * alarms:.0f} % of the trials")
+
 
 def said(lab: Lab, name: str, predicted: float, measured: float) -> None:
     """Print a prediction of yours beside what was measured."""
@@ -485,11 +490,11 @@ def said(lab: Lab, name: str, predicted: float, measured: float) -> None:
 
 
 def looks(rng: np.random.Generator, rate: float, trials: int) -> float:
-    """Return how often one of 20 looks at two equal policies has p <= 0.05."""
+    """Return how often one of 20 comparisons of two equal policies has p <= 0.05."""
     found = 0
+    ends = range(10, TESTED + 1, 10)
     for _ in range(trials):
         first, second = rng.random((2, TESTED)) < rate
-        ends = range(10, TESTED + 1, 10)
         found += any(sign_test(first[:n], second[:n]) <= 0.05 for n in ends)
     return found / trials
 
