@@ -505,8 +505,9 @@ def all_pairs(lab: Lab, some: list[np.ndarray]) -> None:
     pairs = [(i, j) for j in range(len(some)) for i in range(j)]
     p = np.array([sign_test(some[i][:n], some[j][:n]) for i, j in pairs])
     kept = holm(p)
-    print(f"  {len(p)} pairs on {n} starts: p is at most 0.05 in {np.sum(p <= 0.05)}, "
-          f"{np.sum(kept)} are significant by Holm's method")  # fmt: skip
+    few = np.sum(p <= 0.05)
+    print(f"  {len(p)} pairs of policies on {n} starts: p is at most 0.05 in {few},")
+    print(f"  and {np.sum(kept)} are significant by Holm's method")
     order = np.argsort(p)
     adjusted = np.maximum.accumulate(p[order] * np.arange(len(p), 0, -1))
     lab.check("holm - by adjusted p-values", kept[order] ^ (adjusted <= 0.05))
