@@ -183,3 +183,4 @@ def test_a_tuple_of_arrays_is_one_argument_and_no_mistake_changes_it():
     assert row.ask.mistakes()[0].redo(*columns).tolist() == [3.0, 3.0]
     assert first.tolist() == [1.0, 2.0]
     assert (np.shape(asked[0][0]), np.size(asked[0][0])) == ((), 5)
+    assert np.asarray(asked[0][0]).dtype == object

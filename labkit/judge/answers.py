@@ -154,6 +154,12 @@ class Several(tuple[Any, ...]):
         """How many numbers it holds."""
         return sum(map(np.size, self))
 
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+        """Return an array of one object."""
+        whole = np.empty(1, dtype=object)
+        whole[0] = self
+        return whole.reshape(())
+
 
 def grouped(call: Iterable[Any]) -> tuple[Any, ...]:
     """Return the arguments of a call, each tuple of arrays as `Several`."""

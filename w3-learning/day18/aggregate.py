@@ -45,7 +45,7 @@ def _(first, second):
     counted-rows: your shift is the number of rows in the first data set. Episodes
       go on after the largest number
     new-only: the old rows are missing from your result. Return the rows of the
-      first data set, followed by those of the second
+      first data set, and then the second set
     second-first: in your code, the rows of the second data set come first. Put them
       after the rows of the first data set
     renumbered: your code numbers all episodes again from 0. Keep the numbers of the

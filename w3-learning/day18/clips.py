@@ -52,8 +52,10 @@ def _moment(p: np.ndarray):
             colour, wide = (RED, 2.0) if red else (BLUE, 0.8)
             axes.plot(ENDS[:k], one, color=colour, linewidth=wide)
         axes.axhline(0.05, color=INK, linewidth=1.5)
-        axes.set(xlim=(0, 200), ylim=(0.003, 1.3), yscale="log", xlabel="starts")
-        axes.set_yticks((0.01, 0.05, 0.2, 1.0), ("0.01", "0.05", "0.2", "1"))
+        axes.set(xlim=(0, 200), ylim=(0.0006, 1.3), yscale="log", xlabel="starts")
+        axes.set_yticks(
+            (0.001, 0.01, 0.05, 0.2, 1.0), ("0.001", "0.01", "0.05", "0.2", "1")
+        )
         axes.minorticks_off()
         axes.set(ylabel="p-value")
         axes.set_title(f"{alarm.sum()} of {len(p)} equal pairs were below 0.05")

@@ -122,7 +122,7 @@ def sign_test(first: np.ndarray, second: np.ndarray) -> float:
     # region 18.4
     wins = int(np.sum(first & ~second))  # starts on which only the first succeeds
     losses = int(np.sum(second & ~first))  # starts on which only the second succeeds
-    pmf = binomial_pmf(wins + losses, 0.5)  # of the wins, if a fair coin decides
+    pmf = binomial_pmf(wins + losses, 0.5)  # probabilities of the wins of fair coins
     tail = np.sum(pmf[: min(wins, losses) + 1])  # probability of so few or fewer
     return min(1.0, 2 * tail)  # both tails; an even split has both in common
     # endregion 18.4
@@ -136,7 +136,7 @@ def gap_by_luck(p: float, n: int, gap: int) -> float:
     not a rate. The difference may have either sign. gap_by_luck(0.7, 50, 5) -> 0.325656
     """
     # region 18.5
-    pmf = binomial_pmf(n, p)  # of the number of successes in a test
+    pmf = binomial_pmf(n, p)  # probabilities of the successes of one test
     k = np.arange(n + 1)  # the possible numbers
     far = np.abs(k[:, None] - k) >= gap  # the pairs of numbers with such a gap
     return np.sum(np.outer(pmf, pmf)[far])  # the sum of their probabilities
@@ -153,15 +153,15 @@ def paired_power(win: float, lose: float, n: int, level: float) -> float:
     """
     # region 18.6
     differ = win + lose  # probability that exactly one policy succeeds
-    first = win / differ if differ > 0 else 0.0  # that it is the first one
-    power = 0.0  # of the numbers of starts so far
+    first = win / differ if differ > 0 else 0.0  # the probability of the first
+    power = 0.0  # the power so far
     for d, chance in enumerate(binomial_pmf(n, differ)):
         k = np.arange(d + 1)  # the possible numbers of wins
         few = np.cumsum(binomial_pmf(d, 0.5))  # probability of at most k wins
         p = np.minimum(1, 2 * few[np.minimum(k, d - k)])  # the p-values
-        found = binomial_pmf(d, first)[p <= level]  # of the wins that are reported
+        found = binomial_pmf(d, first)[p <= level]  # the wins that are reported
         power += chance * np.sum(found)  # the power, with d starts that differ
-    return power  # of all numbers of starts
+    return power
     # endregion 18.6
 
 
@@ -172,7 +172,7 @@ def best_of(p: float, n: int, k: int) -> float:
     best is the policy with the most successes. best_of(0.75, 20, 6) -> 0.866660
     """
     # region 18.7
-    below = np.cumsum(binomial_pmf(n, p))[:n]  # of at most 0, 1, ..., n - 1 successes
+    below = np.cumsum(binomial_pmf(n, p))[:n]  # probabilities of 0 to s successes
     return np.sum(1 - below**k) / n  # the expected largest number, as a rate
     # endregion 18.7
 
@@ -188,8 +188,10 @@ def holm(p: np.ndarray) -> np.ndarray:
     order = np.argsort(p, kind="stable")  # indices in ascending order of p
     limits = 0.05 / np.arange(len(p), 0, -1)  # 0.05 / m, 0.05 / (m - 1), ..., 0.05
     found = np.zeros(len(p), dtype=bool)  # no difference is significant so far
-    found[order] = np.logical_and.accumulate(p[order] <= limits)  # up to the first
-    return found  # in the order of p
+    found[order] = np.logical_and.accumulate(
+        p[order] <= limits
+    )  # True before a failure
+    return found
     # endregion 18.8
 
 
