@@ -87,8 +87,7 @@ class Answered(InTurn):
             says = f"truth {stops_with(error.__cause__ or error)}"
             raise self.fault(says) from None
         arrays = (c for c in columns if isinstance(c, np.ndarray))
-        several = (one for column in arrays for one in column)
-        if any(np.iscomplexobj(one) for one in several if not isinstance(one, tuple)):
+        if any(np.iscomplexobj(one) for column in arrays for one in column):
             answers = list(map(as_real, answers))
         found = read(self.kind, answers)
         if isinstance(found, Finding):
