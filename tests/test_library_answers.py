@@ -2,6 +2,7 @@
 
 import importlib
 import inspect
+import sys
 
 import inprocess
 import numpy as np
@@ -16,16 +17,30 @@ pytestmark = pytest.mark.kit
 # What a day asks again, in other words, of what a day before has taught.
 ALLOWED: set[tuple[str, str]] = set()
 PROBES = 4  # questions that show most functions to be another one
-MEMORY = 4_000_000_000  # bytes; a loop over a tree makes an endless list of other input
+LINES = 100_000  # of a call; on other input, a loop over a tree may never end
 
 
-@pytest.fixture(autouse=True)
-def _limited_memory():
-    resource = pytest.importorskip("resource", reason="limits of memory are POSIX's")
-    before = resource.getrlimit(resource.RLIMIT_AS)
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, before[1]))
-    yield
-    resource.setrlimit(resource.RLIMIT_AS, before)
+def ended(function, args):
+    """Return a function's answer.
+
+    Raises:
+        TimeoutError: it runs more lines than any right answer to a probe does.
+    """
+    left = LINES
+
+    def count(frame, event, _):
+        nonlocal left
+        left -= event == "line"
+        if left < 0:
+            raise TimeoutError(f"{frame.f_code.co_name} runs over {LINES} lines")
+        return count
+
+    before = sys.gettrace()
+    sys.settrace(count)
+    try:
+        return function(*args)
+    finally:
+        sys.settrace(before)
 
 
 def importable(day):
@@ -44,7 +59,7 @@ def answers_alike(function, row):
     """Return whether a function answers a row's first questions as its truth does."""
     for args in row.ask.main[:PROBES]:
         try:
-            mine = np.asarray(function(*args), dtype=float)
+            mine = np.asarray(ended(function, args), dtype=float)
             right = np.asarray(row.truth(*args), dtype=float)
         except Exception:
             return False
@@ -79,3 +94,13 @@ def test_the_search_finds_a_days_own_library():
     rows = rows_of(day)
     own = importlib.import_module("robo47.dynamics")
     assert all(answers_alike(getattr(own, name), row) for name, row in rows.items())
+
+
+def test_a_call_without_an_end_is_ended():
+    def endless():
+        found = []
+        while True:
+            found.append(len(found))
+
+    with pytest.raises(TimeoutError, match="endless runs over"):
+        ended(endless, ())

@@ -52,7 +52,7 @@ def solve(kit, work):
 def checked(kit, task, file):
     """Return the verdict on a task of a file."""
     with sandbox.Sandbox() as box:
-        (found,) = check_tasks(find_day(46, kit), file, box, task)
+        (found,) = check_tasks(find_day(46, kit), file, box, task, seed=4)
     return found.verdict
 
 

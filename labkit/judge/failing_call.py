@@ -200,16 +200,16 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     That answers were looked up is said only where all are wrong, and each is one that
     another input has got.
     """
-    right = "The result is right for the inputs of every check, but not for"
+    right = "The result is right for the inputs that every check uses, but not for"
     if isinstance(S, Finding):
-        return Finding("some-inputs", f"{right} fresh ones. {S.message}")
+        return Finding("some-inputs", f"{right} new random inputs. {S.message}")
     S = taken(asked.ask, asked.fresh, S)
     T = right_answers(asked.ask, asked.fresh)
     wrong = asked.ask.gaps(S, T) > asked.ask.near
-    says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
+    says = f"{right} {int(wrong.sum())} of {len(wrong)} new random inputs."
     if wrong.all() and _only_known(main, S):
         return Finding("looked-up", f"{says} The answers do not depend on the inputs.")
-    some = "Some inputs take another branch of your function."
+    some = "Do some inputs take another branch of your function?"
     return Finding("some-inputs", says if wrong.all() else f"{says} {some}")
 
 

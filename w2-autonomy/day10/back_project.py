@@ -64,7 +64,8 @@ for slug, says, other in (
                           {"ray": lambda K, h, d: h @ K.T}),
     ("centre-forgotten", "your code does not subtract the principal point from the "
                          "pixel", {"ray": lambda K, h, d: h / [K[0, 0], K[1, 1], 1]}),
-    ("centre-added", "your code adds the principal point to the pixel. Subtract it",
+    ("centre-added", "your code adds the principal point to the pixel. Subtract the "
+                     "principal point",
      {"ray": lambda K, h, d: (h + K[:, 2] * [1, 1, 0])
                       / [K[0, 0], K[1, 1], 1]}),
     ("centre-swapped", "your code swaps cx and cy. The coordinate cx belongs to u",
@@ -86,17 +87,20 @@ for slug, says, other in (
      {"ray": lambda K, h, d: right_ray(K, h) * [1, 1, -1]}),
     ("mujoco-axes", "your code negates y and z, as for MuJoCo's camera frame. "
                     "T_world_cam is already the pose of a frame with y down and z "
-                    "forward",
+                    "forward, so keep the signs",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, -1]}),
-    ("middle-added", "your code adds half a pixel, but (0.5, 0.5) is already the "
-                     "centre of the first pixel", {"pixel": lambda uv: uv + 0.5}),
-    ("middle-taken-off", "your code subtracts half a pixel, but (0, 0) is the corner "
-                         "of the image, and the principal point is measured from there",
+    ("middle-added", "your code adds half a pixel. Omit this shift, because (0.5, "
+                     "0.5) is already the centre of the first pixel",
+     {"pixel": lambda uv: uv + 0.5}),
+    ("middle-taken-off", "your code subtracts half a pixel. Omit this shift, because "
+                         "pixels and the principal point are both measured from the "
+                         "corner of the image",
      {"pixel": lambda uv: uv - 0.5}),
     ("depth-only-in-z", "your code multiplies only z by the depth, but x and y are "
                         "proportional to the depth as well",
      {"scaled": lambda ray, d: np.hstack([ray[:, :2], d])}),
-    ("depth-added", "your code adds the depth to z. Multiply the whole ray by it",
+    ("depth-added", "your code adds the depth to z. Multiply the whole ray by the "
+                    "depth",
      {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
     ("depth-in-the-pixel", "your code replaces the 1 in (u, v, 1) by the depth. "
                            "Multiply K^-1 (u, v, 1) by the depth",

@@ -27,19 +27,19 @@ def matrix(fx, fy, cx, cy):
 def _(fovy, width, height):
     """width-for-height: your code computes f from the width, but fovy is the vertical
       field of view, so use the height
-    two-focal-lengths: your code computes fx from the width, but the pixels are square,
-      so f from the height applies to both axes
-    sine-for-tangent: your f uses the sine of half the angle, but half the height and f
-      are the two legs of the right triangle
+    two-focal-lengths: your code computes fx from the width. The pixels are square, so
+      use f from the height for both axes
+    sine-for-tangent: your f uses the sine of half the angle. Use the tangent, because
+      half the height and f are the two legs of a right triangle
     middle-of-a-pixel: your principal point is ((width - 1) / 2, (height - 1) / 2), as
       in OpenCV, where (0, 0) is the centre of the first pixel. In this task, (0, 0) is
-      its corner
+      the corner of the first pixel
     centre-at-0: your principal point is (0, 0). It should be the centre of the image
-    centre-whole: your principal point is (width, height). It should be the centre of
-      the image, at half of each
+    centre-whole: your principal point is (width, height). It should be (width / 2,
+      height / 2), the centre of the image
     y-up: your second focal length is negative, but v and y both point down
     whole-division: your code uses the operator //, which rounds half of an odd number
-      down. The centre of 353 pixels is at 176.5
+      down. Use /, because the centre of 353 pixels is at 176.5
     """
     f = height / 2 / np.tan(fovy / 2)
     fw = width / 2 / np.tan(fovy / 2)

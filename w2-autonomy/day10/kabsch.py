@@ -67,8 +67,8 @@ for slug, says, other in (
     ("mirror", "your code does not check the determinant, but U V^T may be a "
                "reflection if the points are noisy or mirrored",
                {"rotation": lambda U, Vt: U @ Vt}),
-    ("mirror-turned-round", "where U V^T is a reflection, your rotation is its "
-                            "negative. Negate only the direction of the smallest "
+    ("mirror-turned-round", "if U V^T is a reflection, your code negates the whole "
+                            "matrix. Negate only the direction of the smallest "
                             "singular value",
      {"rotation": all_turned}),
     ("largest-turned-round", "your code corrects a reflection by negating the "
@@ -77,13 +77,14 @@ for slug, says, other in (
                              "least", {"rotation": lambda U, Vt: U @ np.diag(
          [np.linalg.det(U @ Vt), 1, 1]) @ Vt}),
     ("column-turned-round", "your code corrects a reflection by negating the third "
-                            "column of V^T, but the directions are the rows of V^T",
+                            "column of V^T. Negate the third row, because the "
+                            "singular vectors are the rows of V^T",
      {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
     ("always-turned-round", "your code always negates the third direction. Negate it "
                             "only if U V^T is a reflection",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
-    ("R-transposed", "your code transposes the rotation. The rotation should map the "
-                     "source to the target, so it is U V^T of target^T source",
+    ("R-transposed", "your rotation is transposed, so it maps the target to the "
+                     "source. It should be U V^T from the SVD of target^T source",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
     ("worst-fit", "your R is the rotation with the largest sum of squared distances, "
                   "not the smallest. Either a sign is wrong, or your eigenvector "
@@ -111,8 +112,8 @@ def _(source, target):
     """t-of-the-first: your translation fits only the first pair. Use the centroids
     first-for-centre: your code uses the first points instead of the centroids, so the
       noise of one pair changes the fit
-    affine: your function fits an affine map by least squares, but its matrix need not
-      be a rotation
+    affine: your function fits an affine map by least squares. The matrix of an affine
+      map need not be a rotation, so fit a rotation and a translation
     """
     R = kabsch(source, target)[:3, :3]
     one = np.hstack([source, np.ones((len(source), 1))])

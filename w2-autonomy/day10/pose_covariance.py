@@ -32,16 +32,17 @@ def covariance(
 for slug, says, other in (
     ("mean-over-points", "your code multiplies the result by the number of pixel "
                          "coordinates, or it divides J^T J by this number. Each "
-                         "further pixel should reduce the covariance",
+                         "additional pixel should reduce the covariance",
                          {"share": lambda n: n}),
     ("mean-over-points", "your code multiplies the result by the number of points, or "
-                         "it divides J^T J by this number. Each further point should "
-                         "reduce the covariance", {"share": lambda n: n / 2}),
+                         "it divides J^T J by this number. Each additional point "
+                         "should reduce the covariance", {"share": lambda n: n / 2}),
     ("divided-by-points", "your code divides the result by the number of points, but "
                           "J^T J is already the sum over all points",
      {"share": lambda n: 2 / n}),
     ("divided-by-points", "your code divides the result by the number of pixel "
-                          "coordinates, but J^T J is already the sum over all of them",
+                          "coordinates, but J^T J is already the sum over all "
+                          "coordinates",
      {"share": lambda n: 1 / n}),
     ("reshaped-across", "your code reshapes J to (6, 2 n), which mixes its rows. J has "
                         "one row per pixel coordinate, so its shape is (2 n, 6)",
@@ -67,7 +68,7 @@ def _(J, sigma):
     by-what-is-left: your code divides the result by 2 n - 6 degrees of freedom, but
       this division belongs to the estimate of an unknown sigma
     each-point-alone: your code adds the covariances of the individual points. Add their
-      information matrices J^T J
+      information matrices J^T J and invert the sum
     """
     rows = rows_of(J)
     left = len(rows) - 6

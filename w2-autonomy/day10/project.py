@@ -71,7 +71,8 @@ for slug, says, other in (
                          "corner of the image, but a point straight ahead projects to "
                          "the centre",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
-    ("centre-taken-off", "your code subtracts the principal point. Add it",
+    ("centre-taken-off", "your code subtracts the principal point. Add the principal "
+                         "point",
      {"times": lambda K, p: upright(K, p, centre=-1.0)}),
     ("centre-swapped", "your code swaps cx and cy. The coordinate cx belongs to u",
      {"times": lambda K, p: p @ swapped(K).T}),
@@ -80,11 +81,12 @@ for slug, says, other in (
                     {"times": lambda K, p: upright(K, p, f=0.0)}),
     ("y-up", "your code negates y, but both y and v point down",
      {"times": lambda K, p: p * [1, -1, 1] @ K.T}),
-    ("view-along-minus-z", "your code divides the point by -z, but the camera frame of "
-                           "this task has +z forward, unlike MuJoCo's",
+    ("view-along-minus-z", "your code divides the point by -z, as for MuJoCo's camera "
+                           "frame. In this task z points forward, so divide by z",
      {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
     ("mujoco-axes", "your code negates y and z, as for MuJoCo's camera frame. "
-                    "T_cam_world already maps to a frame with y down and z forward",
+                    "T_cam_world already maps to a frame with y down and z forward, "
+                    "so keep the signs",
      {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
     ("divided-by-range", "your code divides the point by its distance from the camera. "
                          "Divide it by its depth z",
@@ -100,15 +102,15 @@ for slug, says, other in (
                                 "Divide it by its last entry, the depth",
      {"divided": lambda h, p: h[:, :2] / length(h)}),
     ("homogeneous-by-mistake", "your code divides the homogeneous pixel by the depth "
-                               "twice, but its last entry is the depth, so one "
-                               "division is enough",
+                               "twice. One division is enough",
      {"divided": lambda h, p: h[:, :2] / h[:, 2:] ** 2}),
-    ("middle-of-a-pixel", "your code subtracts half a pixel, but (0, 0) is the corner "
-                          "of the image, not the centre of the first pixel as in "
-                          "OpenCV",
+    ("middle-of-a-pixel", "your code subtracts half a pixel, as in OpenCV, where (0, "
+                          "0) is the centre of the first pixel. In this task, (0, 0) "
+                          "is the corner of the image",
      {"told": lambda pixels: pixels - 0.5}),
-    ("half-a-pixel-added", "your code adds half a pixel, but (0, 0) is the corner of "
-                           "the image, and the principal point is measured from there",
+    ("half-a-pixel-added", "your code adds half a pixel. Omit this shift, because "
+                           "pixels and the principal point are both measured from the "
+                           "corner of the image",
      {"told": lambda pixels: pixels + 0.5}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(seen, **other))

@@ -99,7 +99,7 @@ def one_focal_length(row, right):
     ):
         row.wrong(
             slug,
-            f"your row for {its}",
+            f"your formula for {its}",
             hidden="the lab's camera has fx = fy",
         )(partial(_with_one, right, i))
 

@@ -80,11 +80,12 @@ def _(p, half_extents):
     depth-added-outside: outside the box, your code adds the largest entry of |p| -
       half_extents to the norm. Add this entry only inside the box, where it is negative
     inside-by-the-norm: inside the box, your code returns minus the norm of all three
-      face distances, but only the nearest face matters
+      face distances. Return minus the smallest of them
     farthest-face-inside: inside the box, your code uses the distance to the farthest
       face. Use the nearest face, which has the largest entry of |p| - half_extents
-    farthest-face-inside 2: your inside term uses the farthest face. Use the nearest
-      face, which has the largest entry of |p| - half_extents
+    farthest-face-inside 2: your term min(..., 0) uses the smallest entry of |p| -
+      half_extents, which belongs to the farthest face. Use the largest entry, which
+      belongs to the nearest face
     to-the-middle-inside: inside the box, your code returns minus the distance to the
       centre. Use the distance to the nearest face
     to-the-middle: your code returns the distance to the centre, so the size of the box
@@ -114,14 +115,14 @@ def _(p, half_extents):
     in-the-plane: your code does not use z. Use all three coordinates
     smallest-added: your code adds the smallest entry of |p| - half_extents, even where
       it is positive. Add the largest entry, and only where it is negative
-    first-axis-added: your inside term uses only the x entry of |p| - half_extents. Use
-      the largest of the three entries
+    first-axis-added: your term min(..., 0) uses only the x entry of |p| - half_extents.
+      Use the largest of the three entries
     largest-with-max: your code uses max(..., 0) instead of min(..., 0), so it adds the
       largest entry outside the box, and the result inside is 0
-    sum-inside: inside the box, your code adds the three face distances, but only the
-      nearest face matters
-    mean-inside: inside the box, your code returns the mean of the three face distances,
-      but only the nearest face matters
+    sum-inside: inside the box, your code adds the three face distances. Return minus
+      the smallest of them
+    mean-inside: inside the box, your code returns the mean of the three face distances.
+      Return minus the smallest of them
     one-number-inside: inside the box, your code always returns -1. Return minus the
       distance to the nearest face
     least-half-inside: inside the box, your code always returns minus the smallest half
@@ -130,8 +131,8 @@ def _(p, half_extents):
       |p|, but the distance to a face is half_extents - |p|
     upper-faces-inside: inside the box, your code uses only the faces on the positive
       side, but the opposite face can be nearer
-    lengthwise: your code measures the distance along the line to the centre, but the
-      shortest distance to a face is perpendicular to it
+    lengthwise: your code measures the distance along the line to the centre. The
+      shortest distance to a face is perpendicular to the face
     size-of-the-difference: your code uses |p - half_extents|, but the excess beyond a
       face is |p| - half_extents
     cut-at-one: your code limits the excess beyond a face to 1, but the excess has no
@@ -141,15 +142,15 @@ def _(p, half_extents):
     two-of-three: near a corner, your code uses only the two largest excesses. Use all
       three
     first-two-only: if the point lies beyond a z face, your code returns only the
-      largest excess, but x and y belong in the norm too
+      largest excess. Take the norm of all positive excesses
     mean-square: your code takes the root of the mean of the squares. Take the root of
-      their sum
+      the sum of the squares
     smallest-taken-off: your code subtracts the smallest absolute value of |p| -
-      half_extents, even outside the box. Subtract this value only inside
+      half_extents, even outside the box. Subtract this value only inside the box
     edges-negative: near an edge or a corner, your result has the wrong sign. The
       distance should be positive outside the box
-    cut-at-both: your code returns the norm of the point clamped to the box. Outside the
-      box, the distance is the norm of the difference between p and this point
+    cut-at-both: your code returns the norm of the point that results from clamping p to
+      the box. Outside the box, return the distance between p and the clamped point
     """
     beyond = np.abs(p) - half_extents
     out = np.maximum(beyond, 0.0)

@@ -47,8 +47,8 @@ def _(a0, a1, r):
     """radius-forgotten: your code omits the radius, so the box contains only the axis
     radius-on-one-side: your code does not subtract the radius from the lower corner
     radius-on-one-side 2: your code does not add the radius to the upper corner
-    radius-inwards: your radius has the wrong sign, so the box shrinks. Subtract it from
-      the lower corner and add it to the upper corner
+    radius-inwards: your radius has the wrong sign, so the box shrinks. Subtract the
+      radius from the lower corner and add it to the upper corner
     radius-added-to-both: your code adds the radius to both corners. Subtract it from
       the lower corner
     flat-ends: your box is the box of a cylinder with flat ends. A capsule ends in
@@ -56,21 +56,22 @@ def _(a0, a1, r):
     corners-not-sorted: your code uses a0 and a1 as the lower and the upper corner. Take
       the minimum and the maximum of each coordinate
     corners-of-all: your code takes one minimum and one maximum over x, y and z
-      together. Take them for each coordinate separately
+      together. Take the minimum and the maximum of each coordinate separately
     swapped: your upper corner comes first. Return the lower corner first
     centre-and-half: your code returns the centre and the half extents. Return the lower
       and the upper corner
     corner-and-size: your code returns the lower corner and the full sides. Return the
       lower and the upper corner
-    half-not-halved: your centre is correct, but your code does not halve |a1 - a0|
-    longest-side: your box is a cube with the longest side, but each axis has its own
-      extent
-    longest-side 2: your code uses the length of the axis as the extent in x, y and z,
-      but each coordinate has its own extent
+    half-not-halved: your centre is correct, but the extent on each side is |a1 - a0|
+      instead of |a1 - a0| / 2
+    longest-side: your box is a cube, because your code uses the longest side along
+      every axis. Each axis has its own extent
+    longest-side 2: your box extends from the midpoint by r plus the length of the axis
+      in x, y and z. Each coordinate has its own extent, r + |a1 - a0| / 2
     around-one-end: your code uses only a0, so the result is the box of a sphere around
-      it
+      a0
     around-one-end 2: your code uses only a1, so the result is the box of a sphere
-      around it
+      around a1
     along-the-axis: your code adds the radius only along the direction of the axis. The
       sphere at each end extends by r along x, y and z
     whole-ends-sorted: your code uses one whole end as the lower corner. Take the
@@ -85,8 +86,8 @@ def _(a0, a1, r):
       r instead
     with-the-origin: your box always contains the origin. Start the minimum and the
       maximum from a0, not from 0
-    size-of-places: your code takes the minimum and the maximum of absolute values, but
-      the sign of a coordinate matters
+    size-of-places: your code takes the minimum and the maximum of absolute values. Use
+      the coordinates with their signs
     as-a-ball: your result is the box of a sphere around the whole capsule. The box
       should be as small as possible
     """

@@ -119,8 +119,8 @@ def _(s, distance, delta_q, radii):
       absolute values
     signs-kept 2: your code takes the absolute value after the sum, so opposite
       rotations cancel. Take the absolute value for each joint
-    fastest-joint-only: your bound uses only the largest product, but the motions of all
-      joints add up
+    fastest-joint-only: your bound uses only the largest product |delta_q_i| radii_i,
+      but the motions of all joints add up
     fastest-joint-only 2: your bound uses only the largest |delta_q|, but the motions of
       all joints add up
     norm-of-dq: your bound is the norm of delta_q times the largest radius, which is not
@@ -133,17 +133,18 @@ def _(s, distance, delta_q, radii):
       not the bound in the task
     reach-forgotten: your code omits the radii, but a rotation in radians becomes a
       distance only when multiplied by a radius
-    dq-forgotten: your bound omits delta_q, but a longer motion needs a shorter step
-    of-what-is-left: your code multiplies the step by 1 - s, but delta_q belongs to the
-      whole motion, so this factor is wrong
-    of-what-is-left 2: your code divides the step by 1 - s, but delta_q belongs to the
-      whole motion, so this factor is wrong
+    dq-forgotten: your bound omits delta_q. A longer motion moves the arm further, so
+      the bound should grow with delta_q
+    of-what-is-left: your code multiplies the step by 1 - s. The argument delta_q
+      belongs to the whole motion, so omit this factor
+    of-what-is-left 2: your code divides the step by 1 - s. The argument delta_q belongs
+      to the whole motion, so omit this factor
     half-a-step: your step is half as long as the bound allows. Use the whole step
     twice-a-step: your step is twice as long as the bound allows, so the arm can hit the
       obstacle
-    multiplied: your code multiplies the distance by the bound. Divide by it, because a
-      faster motion needs a shorter step
-    s-forgotten: your code returns the step alone. Add it to s
+    multiplied: your code multiplies the distance by the bound. Divide the distance by
+      the bound, because a faster motion needs a shorter step
+    s-forgotten: your code returns the step alone. Return s plus the step
     not-capped: your result can exceed 1, the end of the motion. Clamp it at 1
     standing-still: if no joint moves, your code divides by 0. Return 1, because the
       rest of the motion is collision-free
@@ -177,8 +178,7 @@ def _(s, distance, delta_q, radii):
     step-capped: your code limits the step to 1, but s plus the step can exceed 1. Limit
       the sum
     limit-of-the-whole: your code compares the distance with the bound on the whole
-      motion. Compare the distance with the bound on the remaining motion, which is 1 -
-      s times as large
+      motion. Multiply the bound by 1 - s, because only this part of the motion remains
     step-capped 2: your code returns the smaller of 1 - s and the step. Return the
       smaller of 1 and s + step
     max-for-min: your code uses max instead of min, so the result is never below 1
@@ -265,8 +265,8 @@ def _(s, distance, delta_q, radii):
 
 @row.wrong
 def far_is_free(s, distance, delta_q, radii):
-    """if the distance is more than half a metre, your code returns 1, but a long motion
-    can use up any distance"""
+    """if the distance is more than half a metre, your code returns 1. A long motion can
+    use up any distance, so use the bound"""
     if distance <= 0:
         return s
     speed = np.abs(delta_q) @ radii

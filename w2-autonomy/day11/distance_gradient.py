@@ -85,34 +85,33 @@ def _(J_space, p, o, link):
       o, not along o - p
     columns-behind-kept: your entries for the joints distal to the link are not 0, but
       these joints do not move the link
-    own-joint-left-out: your entry for the link's own joint is 0, but joint 4, for
-      example, also moves link 4
+    own-joint-left-out: your entry for the link's own joint is 0, but this joint also
+      moves the link
     one-column-too-many: your entry for joint `link` + 1 is not 0, but this joint moves
       only distal links
     from-the-link-on: your code keeps the link's own joint and the joints distal to it.
       Keep the joints up to the link
     first-joint-left-out: your entry for joint 1 is 0, but joint 1 moves every link
-    own-joint-only: in your result, only the entry for the link's own joint is not 0,
-      but every joint up to the link moves it
+    own-joint-only: your result is 0 except for the link's own joint, but all joints up
+      to the link move it
     columns-before-dropped: your code keeps the joints distal to the link. Keep the
       joints up to the link
-    rotation-forgotten: the term omega x p has no effect in your code, because this term
-      is missing or contains p - o instead of p. The velocity v alone is the velocity of
-      the point at the world origin
+    rotation-forgotten: your result contains only v, not omega x p. Either the term
+      omega x p is missing, or it uses p - o instead of p
     rotation-only: your code omits v, but the velocity of p is v + omega x p
     cross-the-other-way: your cross product has the wrong order. The velocity of p is v
       + omega x p
     normal-not-unit: your code does not normalise the normal, so the result is
       multiplied by the distance. Divide the normal by the distance
-    normal-squared: your code divides the normal by the squared distance. Divide by the
-      distance
+    normal-squared: your code divides the normal by the squared distance. Divide it by
+      the distance
     half: your result has an extra factor 1/2. Remove it
     normal-of-p: your normal points from the world origin to p. It should point from o
       to p
     normal-of-o: your normal points from the world origin to o. It should point from o
       to p
-    only-along-z: your code uses only the z component. Project the velocity onto the
-      normal
+    only-along-z: your code uses only the z component of the velocity. Project the
+      velocity onto the normal
     not-projected: your code returns the speed of p. Return the component of the
       velocity along the normal
     size-only: your code returns the absolute values, but a negative entry means that
@@ -124,7 +123,8 @@ def _(J_space, p, o, link):
     two-directions: your code normalises p and o separately. Normalise their difference
     parts-summed: your code adds the absolute values of the velocity components. Project
       the velocity onto the normal
-    summed-up: your entries are cumulative sums, but each entry belongs to one joint
+    summed-up: your entries are cumulative sums. Return the derivative for each joint
+      alone
     one-place-early: each of your entries is one position too early. The first entry
       belongs to joint 1
     one-place-late: each of your entries is one position too late. The first entry

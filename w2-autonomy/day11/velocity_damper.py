@@ -118,7 +118,8 @@ MORE = (
     hidden={"coming-near": "hardly a speed in a run comes near and is slow enough"}
 )
 def _(qd, grad, distance, gain):
-    """always: your code changes velocities that are already allowed. Return qd for them
+    """always: your code changes velocities that are already allowed. Return such a qd
+      unchanged
     not-divided: your code does not divide the correction by grad . grad, so the
       correction has the wrong norm unless grad has norm 1
     divided-by-the-length: your code divides the correction by the norm of grad. Divide
@@ -129,12 +130,12 @@ def _(qd, grad, distance, gain):
       component along grad
     all-joints-slowed 2: your code scales all joints by one factor. Change only the
       component along grad
-    stops-dead: your code stops the arm if it would be too fast. Keep the part of the
-      velocity that is allowed
-    stops-dead 2: your code stops the arm if it would be too fast, and also if grad is
-      0. Keep the part of the velocity that is allowed
-    part-removed: your code removes the whole component along grad, but an approach
-      within the bound is allowed
+    stops-dead: your code stops the arm if it approaches the obstacle too fast. Keep the
+      part of the velocity that is allowed
+    stops-dead 2: your code stops the arm if it approaches the obstacle too fast, and
+      also if grad is 0. Keep the part of the velocity that is allowed
+    part-removed: your code removes the whole component along grad. Keep the part that
+      the bound allows
     sign-of-the-bound: your bound has the wrong sign. The condition is grad . qd >=
       -gain distance
     distance-sign-lost: your code uses the absolute value of the distance. A negative
@@ -142,8 +143,8 @@ def _(qd, grad, distance, gain):
     gain-forgotten: your bound omits the gain. It should be -gain distance
     distance-forgotten: your bound omits the distance. It should be -gain distance
     distance-over-gain: your code divides the distance by the gain. Multiply the two
-    wrong-side: your code reverses the comparison, so it changes allowed velocities and
-      keeps those that are too fast
+    wrong-side: your code reverses the comparison, so it changes the allowed velocities
+      and keeps the others
     leaving-forbidden: your code also limits velocities away from the obstacle. Limit
       only the approach
     joint-by-joint: your code applies the bound to each joint separately, but the bound
@@ -152,8 +153,8 @@ def _(qd, grad, distance, gain):
       is in m/s and limits the sum grad . qd
     largest-joint-only: your code changes only the joint with the largest entry of grad,
       but the smallest change is along grad
-    slope-unit: your code normalises grad before it compares grad . qd with the bound,
-      which changes the value of grad . qd
+    slope-unit: your code normalises grad in grad . qd, but not in the bound. Use grad
+      itself
     only-inside: your code limits the velocity only if the distance is negative. Limit
       it at every distance
     standing-still: if grad is 0, your code divides by 0. Return qd
@@ -163,11 +164,12 @@ def _(qd, grad, distance, gain):
       correction should move the arm away
     stopped-where-it-overlaps: if the distance is not positive, your code returns 0.
       Keep the part of the velocity that leads away
-    no-way-out: your code clamps a negative distance to 0, so the arm is not moved away
-    coming-near: your code changes every velocity towards the obstacle, but an approach
-      within the bound is allowed
-    by-the-sizes: your code compares absolute values, so a fast motion away from the
-      obstacle is changed too
+    no-way-out: your code clamps a negative distance to 0, so an arm that overlaps the
+      obstacle is not moved away. Use the negative distance
+    coming-near: your code changes every velocity towards the obstacle. Keep an approach
+      that the bound allows
+    by-the-sizes: your code compares absolute values, so it also changes a fast motion
+      away from the obstacle. Keep the signs
     half-of-it: your code adds only half of the correction. Add the whole correction
     twice-of-it: your code adds twice the correction. Add it once
     one-joint-only: your code changes only the first joint, but the smallest change is
@@ -184,12 +186,12 @@ def _(qd, grad, distance, gain):
     divided-by-the-largest: your code divides the correction by the square of the
       largest entry of grad. Divide it by grad . grad
     divided-by-qd: your code divides the correction by qd . qd. Divide it by grad . grad
-    those-that-come-near: your code changes only joints that approach the obstacle, but
-      the smallest change is along all of grad
+    those-that-come-near: your code changes only joints that approach the obstacle. The
+      smallest change is along grad, which also changes the other joints
     those-that-come-near 2: your code stops joints that approach the obstacle. Keep the
       part of the velocity that is allowed
-    rate-added: your code adds grad . qd to the bound. Subtract it from the bound to get
-      the missing speed
+    rate-added: your correction uses the sum of the bound and grad . qd. It should use
+      the bound minus grad . qd
     lack-alone: your code returns the correction alone. Add it to qd
     """
     bound = -gain * distance

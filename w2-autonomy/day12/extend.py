@@ -48,10 +48,10 @@ def asked(rng, free, far, n=6):
         i, _, open_ = extend(tree, sample, step, world)
         if open_ is not free or not segment_free_of_discs(tree[i], tree[i], world):
             continue
-        # Where a step ends in the open and the sample is hit, and the other way round.
+        # An edge that is free is mostly one beyond which a disc hides the sample.
         if (
-            not far
-            or segment_free_of_discs(tree[i], sample, world) is not open_
+            not (far and free)
+            or not segment_free_of_discs(tree[i], sample, world)
             or rng.uniform(0, 1) < 0.03
         ) and definite(tree, sample, step, world):
             return tree, sample, step, world
@@ -138,8 +138,8 @@ def _(tree, sample, step, world):
     sample-itself: your new node is the sample itself. Limit the edge to one step with
       `steer`
     sample-itself 2: your new node is the sample itself, and your code tests the whole
-      edge to it. Limit the edge to one step with `steer`
-    point-only: your code tests only the new point. Test the whole edge to it
+      edge to the sample. Limit the edge to one step with `steer`
+    point-only: your code tests only the new point. Test the whole edge to the new point
     node-only: your code tests only the node from which the tree grows. Test the whole
       edge
     always-free: your code does not test the edge, so it reports every edge as free
@@ -166,10 +166,10 @@ def _(tree, sample, step, world):
       to the sample
     farthest: your tree grows from the node farthest from the sample. It should grow
       from the nearest node
-    largest-difference: your code chooses the nearest node by the largest difference of
-      a coordinate. Use the Euclidean distance
+    largest-difference: your code chooses the nearest node by the largest coordinate
+      difference. Use the Euclidean distance
     largest-difference 2: your code finds the nearest node, and its distance, by the
-      largest difference of a coordinate. Use the Euclidean distance
+      largest coordinate difference. Use the Euclidean distance
     sum-of-differences: your code chooses the nearest node by the sum of the absolute
       differences. Use the Euclidean distance
     squared-for-plain: your code divides the step by the squared distance to the sample.
@@ -178,10 +178,10 @@ def _(tree, sample, step, world):
       edge from the nearest node to the new point
     standing-is-blocked: if the sample equals a node, your code reports a blocked edge.
       An edge of length 0 is free if the node is free
-    own-is-free: your code does not call the method `edge_free` of the world, so it
-      reports every edge of such a world as free
-    own-is-blocked: your code does not call the method `edge_free` of the world, so it
-      reports every edge of such a world as blocked
+    own-is-free: your code does not call the method `edge_free` of a world that has one,
+      so it reports every edge of this world as free
+    own-is-blocked: your code does not call the method `edge_free` of a world that has
+      one, so it reports every edge of this world as blocked
     free-if-reached: your code reports a free edge only if the step reaches the sample,
       but a step towards the sample is an edge too
     reached-is-free: if the step reaches the sample, your code does not test the edge.

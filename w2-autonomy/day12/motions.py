@@ -137,11 +137,14 @@ def _same_limit(choose: Callable[[Array], float]) -> Any:
 OPTIONS = [
     *(Option(slug, says, {"two_ds": of}, alone="points" in slug)
       for slug, says, of in (
-        ("ds-for-2-ds", "your sd^2 grows by ds u in a step. It should grow by 2 ds u",
+        ("ds-for-2-ds", "your sd^2 grows by ds sdd in a step. It should grow by 2 ds "
+                        "sdd",
          lambda n: 1 / n),
-        ("four-ds", "your sd^2 grows by 4 ds u in a step. It should grow by 2 ds u",
+        ("four-ds", "your sd^2 grows by 4 ds sdd in a step. It should grow by 2 ds "
+                    "sdd",
          lambda n: 4 / n),
-        ("half-ds", "your sd^2 grows by ds u / 2 in a step. It should grow by 2 ds u",
+        ("half-ds", "your sd^2 grows by ds sdd / 2 in a step. It should grow by 2 ds "
+                    "sdd",
          lambda n: 0.5 / n),
         ("points-for-steps", "your ds is 1 / (N + 1). The N + 1 points have N steps "
                              "between them, so ds should be 1 / N",
@@ -180,27 +183,31 @@ OPTIONS = [
     *(Option(slug, says, {"passes": one}) for slug, says, one in (
         ("no-braking", "your code has no backward pass", "forward"),
         ("backward-pass-only", "your code has no forward pass", "back"),
-        ("smaller-of-two-passes", "your code computes the two passes independently and "
-                                  "takes the minimum. The forward pass should use the "
-                                  "limits from the backward pass",
+        ("smaller-of-two-passes", "your code computes the two passes independently "
+                                  "and takes the minimum. The forward pass should "
+                                  "stay below the result of the backward pass",
          "smaller"))),
     *(Option("few-bisections", f"your bisection stops too early, after {n} halvings",
            {"bisections": n}, alone=True)
       for n in (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20)),
     Option("bobrow", "in the backward pass, your code computes the smallest sdd of a "
-                     "step at its end. Use its first point",
+                     "step at the end of the step. Compute it at the first point of "
+                     "the step",
            {"swept": True}),
-    Option("limits-of-the-next-point", "in both passes, your code computes the "
-                                       "bounds on sdd for a step at the end of the "
-                                       "step. Compute them at its first point",
+    Option("limits-of-the-next-point", "in both passes, your code computes the bounds "
+                                       "on sdd for a step at the end of the step. "
+                                       "Compute the bounds at the first point of the "
+                                       "step",
            {"back_at": 1, "at": 1}),
     Option("limits-of-the-next-point", "in the backward pass, your code computes the "
                                        "bounds on sdd for a step at the end of the "
-                                       "step. Compute them at its first point",
+                                       "step. Compute the bounds at the first point "
+                                       "of the step",
         {"back_at": 1}),
     Option("limits-of-the-next-point", "in the forward pass, your code computes the "
                                        "bounds on sdd for a step at the end of the "
-                                       "step. Compute them at its first point",
+                                       "step. Compute the bounds at the first point "
+                                       "of the step",
         {"at": 1}),
     *(Option(slug, says, {"pull": of}, alone=True) for slug, says, of in (
         ("limits-of-the-first-point", "your code uses a, b and c of the first point "

@@ -120,10 +120,10 @@ def _(tree, q):
       Square them first
     last-of-equals: if several nodes are equally near, your code returns the last one.
       Return the first one, as np.argmin does
-    largest-coordinate: your code compares the largest difference in one coordinate. Use
-      the Euclidean distance
-    sum-of-sizes: your code compares the sum of the absolute differences. Use the
-      Euclidean distance
+    largest-coordinate: your code compares the nodes by their largest coordinate
+      difference. Use the Euclidean distance
+    sum-of-sizes: your code compares the nodes by the sum of the absolute differences.
+      Use the Euclidean distance
     wrapped: your code wraps the differences to [-pi, pi], but the joints have limits,
       so q and q + 2 pi are different configurations
     wrapped 2: your code takes the differences modulo 2 pi, but the joints have limits,
@@ -132,35 +132,36 @@ def _(tree, q):
     weighted 2: your coordinates have different weights. Use the same weight for all
     from-the-origin: your code does not use q, so it returns the node nearest to the
       origin
-    q-added: your code adds q to the nodes. Subtract it
-    most-alike: your code compares the dot products with q, but a dot product also grows
-      with the norm of the node
-    place-of-the-distance: your code returns the rank of the root in the order of the
-      distances. Return the index of the smallest distance
+    q-added: your code adds q to the nodes. Subtract q from the nodes
+    most-alike: your code compares the dot products with q. A dot product also grows
+      with the norm of the node, so compare the distances
+    place-of-the-distance: your code returns the position of the root in the order of
+      the distances. Return the index of the smallest distance
     counted-from-the-end: your index counts from the end of the tree. Count from the
       root
-    smallest-coordinate: your code compares the smallest difference in one coordinate.
-      Use the Euclidean distance
-    two-coordinates: your code compares only the first two coordinates, but a node can
-      have any number of them
+    smallest-coordinate: your code compares the nodes by their smallest coordinate
+      difference. Use the Euclidean distance
+    two-coordinates: your code compares only the first two coordinates. Use the distance
+      in all coordinates
     first-left-out: your code does not compare the first coordinate. Use the distance in
       all coordinates
     cubed: your code cubes the differences, so they keep their signs and cancel. Square
       them
     length-for-place: your code compares the norms of the nodes with the norm of q. Two
       points with the same norm can be far apart
-    angle: your code selects the node at the smallest angle to q. Use the distance
+    angle: your code selects the node at the smallest angle to q. Select the node at the
+      smallest distance
     second-nearest: your code returns the second nearest node. Return the nearest one
-    least-not-kept: your code compares each row with the distance of the root. Compare
-      it with the smallest distance so far
-    row-before: your code compares each row only with the previous row. Compare it with
-      the smallest distance so far
+    least-not-kept: your code compares each distance only with the distance of the root.
+      Compare it with the smallest distance so far
+    row-before: your code compares each distance only with the distance of the previous
+      row. Compare it with the smallest distance so far
     first-that-is-nearer: your loop stops at the first row that is nearer than the root.
       Test all rows
     rounded: your code rounds the distances before it compares them, so two different
-      distances can be equal
+      distances can become equal
     rounded 2: your code rounds the distances before it compares them, so two different
-      distances can be equal
+      distances can become equal
     root-left-out: your code skips the root, row 0, but the root can be the nearest node
     root-left-out 2: your code skips the root, row 0, and counts the rows from row 1.
       Include the root, and count from row 0
@@ -171,8 +172,8 @@ def _(tree, q):
       each row is a node
     itself-left-out: your code skips a node that equals q, but such a node has distance
       0, so it is the nearest one
-    largest-with-sign: your code compares the largest signed difference. Use the
-      Euclidean distance
+    largest-with-sign: your code compares the nodes by their largest signed difference.
+      Use the Euclidean distance
     """
     away = tree - q
     far = np.sum(away**2, axis=1)

@@ -6,7 +6,7 @@ from labkit.judge import Row, Vector
 from robo47.planning import path_accel_bounds
 
 row = Row(
-    Vector((2,), "1/s^2", names=("the least", "the greatest")),
+    Vector((2,), "1/s^2", names=("the lower bound", "the upper bound")),
     at_edge=lambda a, b, c, limits, sd: bool(np.all(limits > 0)),
 )
 
@@ -172,13 +172,13 @@ def _(a, b, c, limits, sd):
     """not-sorted: if `a` is negative, your code swaps the lower and the upper bound of
       that joint. Sort the two quotients
     speed-forgotten: your code omits the term b sd^2
-    speed-sign: your code adds b sd^2 to the limits. Subtract it
+    speed-sign: your code adds b sd^2 to the limits. Subtract b sd^2
     gravity-forgotten: your code omits the term c
-    gravity-sign: your code adds c to the limits. Subtract it
-    rest-added: your code adds b sd^2 + c to the limits. Subtract it
+    gravity-sign: your code adds c to the limits. Subtract c
+    rest-added: your code adds b sd^2 + c to the limits. Subtract b sd^2 + c
     rest-not-divided: your code does not divide b sd^2 + c by `a`
-    one-sided: your b sd^2 + c has the wrong sign in the lower bound, but the bounds are
-      not symmetric about 0
+    one-sided: your b sd^2 + c has the wrong sign in the lower bound. Subtract b sd^2 +
+      c from both limits
     size-of-rest: your code reduces both limits by |b sd^2 + c|. This torque should
       reduce one limit and extend the other
     widest: your code takes the union of the joints' intervals. Take the intersection
@@ -190,8 +190,8 @@ def _(a, b, c, limits, sd):
     last-joint-only: your code uses only the last joint. Does your loop overwrite the
       earlier bounds?
     half-the-limit: your code uses only half of each torque limit. Use the whole limit
-    not-divided: your bounds are torques. Divide them by `a`
-    times-a: your code multiplies the torques by `a`. Divide them by `a`
+    not-divided: your bounds are torques. Divide the torques by `a`
+    times-a: your code multiplies the torques by `a`. Divide the torques by `a`
     one-limit: your code allows torques from 0 to the limit, but the torques may range
       from -limit to limit
     greatest-first: your upper bound comes first. Return the lower bound first
@@ -206,7 +206,7 @@ def _(a, b, c, limits, sd):
     none-is-zero 2: if a joint with a = 0 exceeds its limit, your code returns (0, 0),
       which allows sdd = 0. Return (inf, -inf)
     none-is-one: if no sdd is allowed, your code reduces the lower bound to the upper
-      bound. Leave it above the upper bound
+      bound. Leave the lower bound above the upper bound
     zero-stops-all: your code returns an empty range for a joint with a = 0 within its
       torque limit. Such a joint does not limit sdd
     zero-row-ignored: your code ignores a joint with a = 0 that exceeds its torque
@@ -255,7 +255,7 @@ def _(a, b, c, limits, sd):
     all-have-to-hold: your code compares b sd^2 + c with the limit for joints that move
       too. This test is only for joints with a = 0
     any-that-holds: if several joints have a = 0, your code accepts the speed if at
-      least one of them is within its limit. All of them must be
+      least one of them is within its limit. All of them must be within their limits
     small-is-zero: your code treats a small `a` as 0, but a joint with a small `a` still
       limits sdd
     small-is-zero 2: your code treats a small `a` as 0, but a joint with a small `a`

@@ -213,27 +213,27 @@ def _others(a, b, discs, part, away):
 def _(a, b, discs):
     """line-for-segment: your code does not clamp the parameter of the nearest point to
       [0, 1], so a disc beyond an end of the edge blocks it
-    only-one-end-cut: your code clamps the parameter at 1 but not at 0. Before the
-      start, the nearest point should be the start
-    only-one-end-cut 2: your code clamps the parameter at 0 but not at 1. Beyond the
-      end, the nearest point should be the end
+    only-one-end-cut: your code clamps the parameter of the nearest point only at 1.
+      Clamp it at 0 as well, because the edge begins at `a`
+    only-one-end-cut 2: your code clamps the parameter of the nearest point only at 0.
+      Clamp it at 1 as well, because the edge ends at `b`
     ends-only: your code tests only the two ends, but the edge can cross a disc between
       them
     new-end-only: your code tests only the end `b`. Test the whole edge
     start-only: your code tests only the start `a`. Test the whole edge
     middle-only: your code tests only the midpoint. Test the whole edge
     points-only: your code tests only some points of the edge, but a small disc can lie
-      between two of them
+      between two of these points
     points-only 2: your code tests only some points of the edge, but a small disc can
-      lie between two of them
+      lie between two of these points
     points-only 3: your code tests only some points of the edge, but a small disc can
-      lie between two of them
+      lie between two of these points
     points-only 4: your code tests only some points of the edge, but a small disc can
-      lie between two of them
+      lie between two of these points
     points-only 5: your code misses discs that cover only a small part of the edge.
-      Either it tests only some points, or its nearest point is not exact
+      Either it tests only some points, or its nearest point is inaccurate
     points-only 6: your code misses discs that cover only a small part of the edge.
-      Either it tests only some points, or its nearest point is not exact
+      Either it tests only some points, or its nearest point is inaccurate
     inside-is-free: your code reports an edge inside a disc as free, because the edge
       does not cross the circle. The inside of a disc is blocked
     inside-is-free 2: your code reports an edge or a point inside a disc as free,
@@ -267,12 +267,13 @@ def _(a, b, discs):
       length of the edge. Divide it by the squared length
     touching-is-free: your code reports an edge that touches a disc as free. It should
       be blocked
-    from-the-origin: your code computes the nearest point from the origin. First
-      subtract `a` from the centre
-    other-way: your parameter runs from `b` to `a`, but your code applies it from `a`
+    from-the-origin: your code projects the centre itself onto the edge. First subtract
+      `a` from the centre
+    other-way: your code measures the parameter from one end of the edge, but it applies
+      the parameter from the other end. Use the same end for both
     box: your code treats the discs as squares, because it compares each coordinate
       separately. Use the Euclidean distance
-    foot-without-a: your code measures the nearest point from the origin. Add `a`
+    foot-without-a: your nearest point omits the start `a`. Add `a`
     cut-to-one: your code clamps a length along the edge to [0, 1]. Clamp it to the
       length of the edge
     length-for-share: your code multiplies a length along the edge by b - a. Multiply it
@@ -292,13 +293,13 @@ def _(a, b, discs):
     touching-between: your code reports an edge that touches a disc between its ends as
       free. It should be blocked
     points-only 7: your code misses discs that cover only a small part of the edge.
-      Either it tests only some points, or its nearest point is not exact
+      Either it tests only some points, or its nearest point is inaccurate
     points-only 8: your code tests only some points of the edge, but a small disc can
-      lie between two of them
+      lie between two of these points
     points-only 9: your code misses discs that cover only a small part of the edge.
-      Either it tests only some points, or its nearest point is not exact
+      Either it tests only some points, or its nearest point is inaccurate
     points-only 10: your code misses discs that cover only a small part of the edge.
-      Either it tests only some points, or its nearest point is not exact
+      Either it tests only some points, or its nearest point is inaccurate
     """
     along = b - a
     square = along @ along

@@ -121,9 +121,9 @@ def _(a, b, c, limits, sd2_max):
     backward-pass-only 2: your code has no forward pass, so sd^2 jumps from 0 to its
       maximum
     smaller-of-two-passes: your code computes the two passes independently and takes the
-      minimum. The forward pass should use the limits from the backward pass
-    ds-for-2-ds: your sd^2 grows by ds u in a step. It should grow by 2 ds u
-    four-ds: your sd^2 grows by 4 ds u in a step. It should grow by 2 ds u
+      minimum. The forward pass should stay below the result of the backward pass
+    ds-for-2-ds: your sd^2 grows by ds sdd in a step. It should grow by 2 ds sdd
+    four-ds: your sd^2 grows by 4 ds sdd in a step. It should grow by 2 ds sdd
     points-for-steps: your ds is 1 / (N + 1). The N + 1 points have N steps between
       them, so ds should be 1 / N
     sd-for-sd2: your code calls `path_accel_bounds` with sd^2. Its argument should be sd
@@ -135,19 +135,20 @@ def _(a, b, c, limits, sd2_max):
       maximum at i. Use the maximum at i + 1
     no-speed-limit: your code does not use sd2_max, so it does not limit the speed of
       the motors
-    speed-limit-forwards-only: your code uses sd2_max only in the forward pass, but the
-      backward pass needs it too
+    speed-limit-forwards-only: your code clamps sd^2 to sd2_max only after the two
+      passes. Use sd2_max inside both passes, so that the motion can slow down in time
     gravity-forgotten: your code omits gravity in the torques
     coriolis-forgotten: your code omits b sd^2 in the torques
     cannot-stand-goes: your code returns a nonzero motion although gravity alone exceeds
       a torque limit. The arm cannot stay at rest at such a point, so return zeros
-    few-bisections: your bisection stops too early, so its result is not accurate enough
+    few-bisections: your bisection stops too early, so its result is not accurate
+      enough. Halve the interval more often
     few-bisections 2: your bisection stops too early, so its result is not accurate
-      enough
+      enough. Halve the interval more often
     limits-of-the-next-point: your code computes the bounds on sdd for a step at the end
-      of the step. Compute them at its first point
+      of the step. Compute the bounds at the first point of the step
     bobrow: in the backward pass, your code computes the bounds on sdd for a step at the
-      end of the step. Compute them at its first point
+      end of the step. Compute the bounds at the first point of the step
     root: your code returns sd. Return sd^2
     times: your code returns the time of each point. Return sd^2
     half-the-torque: your code uses only half of each torque limit. Use the whole limit

@@ -43,17 +43,22 @@ def discs_of(world):
     return world.rows if isinstance(world, Balls) else world
 
 
-def gap(a, b, some):
-    """Return how far an edge is from the nearest disc; less than 0 in it."""
+def gaps(a, b, some):
+    """Return how far an edge is from each disc; less than 0 in it."""
     along = b - a
     part = (some[:, :-1] - a) @ along / max(along @ along, 1e-300)
     foot = a + np.clip(part, 0, 1)[:, None] * along
-    return np.min(np.linalg.norm(some[:, :-1] - foot, axis=1) - some[:, -1], initial=9)
+    return np.linalg.norm(some[:, :-1] - foot, axis=1) - some[:, -1]
+
+
+def gap(a, b, some):
+    """Return how far an edge is from the nearest disc."""
+    return np.min(gaps(a, b, some), initial=9)
 
 
 def clear(a, b, some):
     """Return whether rounding cannot decide if the edge from a to b is free."""
-    return all(abs(gap(a, b, one[None])) > CLEAR for one in discs_of(some))
+    return bool(np.all(np.abs(gaps(a, b, discs_of(some))) > CLEAR))
 
 
 def second_best(tree, q):
@@ -88,15 +93,12 @@ def ways_asked(rng):
             start, goal = LEFT[rng.integers(2)], RIGHT[rng.integers(2)]
             world = Careful(discs(rng, m, 0.15, 0.4))
             samples = rng.numbers(-1.3, 1.3, n, 2)
-            ends = min(gap(x, x, world.discs) for x in (start, goal))
+            if planning.segment_free_of_discs(start, goal, world.discs):
+                continue
+            if min(gap(x, x, world.discs) for x in (start, goal)) <= 0.05:
+                continue
             way = planning.rrt_connect(start, goal, world, samples, step)
-            straight = planning.segment_free_of_discs(start, goal, world.discs)
-            if (
-                ends > 0.05
-                and world.clear
-                and bool(len(way)) == wanted
-                and not straight
-            ):
+            if world.clear and bool(len(way)) == wanted:
                 break
         found.append((start, goal, world.discs, samples, step))
     return found

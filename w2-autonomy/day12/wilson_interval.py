@@ -70,8 +70,10 @@ def _(successes, n):
       k = 0 and for k = n
     centre-not-moved: your centre is k / n, but Wilson's centre is shifted towards one
       half
-    width-without-z2: your code omits the term z^2 / (4 n^2) under the root
-    not-divided: your code omits the division by 1 + z^2 / n
+    width-without-z2: your code omits the term z^2 / (4 n^2) under the root. With this
+      term, the width is above 0 even for k = 0
+    not-divided: your code omits the division of the centre and of the half-width by 1 +
+      z^2 / n
     middle-not-divided: your code divides only the half-width by 1 + z^2 / n. Divide the
       centre too
     width-not-divided: your code divides only the centre by 1 + z^2 / n. Divide the
@@ -86,11 +88,12 @@ def _(successes, n):
     ninety-nine: your z is 2.576, which gives a 99 % interval. Use 1.96
     more-digits: your z is 1.959964, which is more exact than 1.96, but the task uses
       1.96 so that all results agree
-    z-for-z2: your code uses z instead of z^2 in the centre and in the denominator
+    z-for-z2: your code uses z instead of z^2 in the centre and in the denominator. Use
+      z^2 in both
     two-n: your centre contains z^2 / n. It should contain z^2 / (2 n)
     four-forgotten: your root contains z^2 / n^2. It should contain z^2 / (4 n^2)
     n-for-n2: your root contains z^2 / (4 n). It should contain z^2 / (4 n^2)
-    successes-for-p: your code uses k as the proportion. Use k / n
+    successes-for-p: your centre uses k instead of the proportion k / n
     failures: your code returns the interval for the failures, n - k. Return the
       interval for the successes
     high-first: your upper end comes first. Return the lower end first
@@ -112,9 +115,9 @@ def _(successes, n):
     one-more: your p is (k + 1) / (n + 2), with one success and one failure added. Use k
       / n
     quadratic-sign: your quadratic equation for p has the coefficient -2 k / n + z^2 /
-      n, but it should be -(2 k / n + z^2 / n)
-    quadratic-z2: your quadratic equation for p has the coefficient -(2 k / n + z^2),
-      but it should be -(2 k / n + z^2 / n)
+      n. It should be -(2 k / n + z^2 / n)
+    quadratic-z2: your quadratic equation for p has the coefficient -(2 k / n + z^2). It
+      should be -(2 k / n + z^2 / n)
     half-width: your interval is half as wide as it should be. Add and subtract the
       whole half-width
     one-is-none: for n = 1, your code returns (0, 1), but only n = 0 is a special case
@@ -203,8 +206,8 @@ def none_divides(successes, n):
 
 @row.wrong("none-divides")
 def _(successes, n):
-    """for n = 0, your code returns another result. Return (0, 1), because no proportion
-    can be excluded"""
+    """for n = 0, your code returns (0, 0). Return (0, 1), because no proportion can be
+    excluded"""
     return np.zeros(2) if n == 0 else wilson_interval(successes, n)
 
 

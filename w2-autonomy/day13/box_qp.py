@@ -240,9 +240,9 @@ def _(H, f, lo, hi, x):
       within the bounds
     scaled-back: your step towards the unconstrained minimiser ends at the first bound.
       From there, the free entries should move on
-    solved-once-more: your code clamps the unconstrained minimiser and solves the free
-      entries again only once. After that, other entries may reach a bound, or a held
-      entry may have to be released
+    solved-once-more: your code clamps the unconstrained minimiser and solves for the
+      free entries again only once. Afterwards, another entry may reach a bound, or a
+      held entry may have to be released, so once is not enough
     clipped-for-good: your code solves the free entries again until all are within the
       bounds, but it never releases a clamped entry. Release an entry if the negative
       gradient points away from its bound
@@ -255,9 +255,10 @@ def _(H, f, lo, hi, x):
       bounds again. Release only the entry that would move most
     stops-too-early: your loop ends although a held entry would still move by up to
       1e-4. Use a smaller tolerance
-    few-rounds: your code stops after ten iterations, which are not enough. Repeat until
-      no held entry has to be released
-    upper-limits-passed: your code does not stop the step at the upper bounds
+    few-rounds: your code stops after ten iterations, but some problems need more.
+      Repeat until no held entry has to be released
+    upper-limits-passed: your step can pass the upper bounds. Stop the step at the first
+      bound that it reaches
     held-by-place: your code holds every entry that is at a bound. Release an entry if
       the negative gradient points away from its bound
     frees-the-wrong-ones: your code holds the wrong entries. Hold an entry if the
@@ -283,7 +284,8 @@ def _(H, f, lo, hi, x):
     diagonal-hessian 2: your code divides the gradient by the diagonal of H. Solve with
       the rows and columns of H for the free entries
     gradient-steps 3: your result is x after 1,000 clamped gradient steps. They have not
-      converged if the condition number of H is large, as in task 13.6
+      converged if the condition number of H is large, as in task 13.6, so solve for the
+      free entries instead
     one-gradient-step: your result is x after one clamped gradient step, which is not
       the minimum. Repeat the steps until x no longer changes, or solve for the free
       entries

@@ -106,12 +106,12 @@ def _(J_space, masses, coms, g):
     not-symmetrised 2: your code also uses the formula above the diagonal and transposes
       the result. The formula holds only for i >= j, so copy the lower triangle to the
       upper one
-    averaged: your code averages the two triangles, but only the lower one is correct.
-      Copy it to the upper one
+    averaged: your code averages the two triangles, but only the lower triangle is
+      correct. Copy the lower triangle to the upper one
     other-half: your code computes the upper triangle and copies it. The formula with g
       x omega_j holds only for i >= j, so compute the lower triangle
-    diagonal-doubled: your code doubles the diagonal, because both of the triangles that
-      you add contain it
+    diagonal-doubled: your code adds two triangles that both contain the diagonal, so
+      the diagonal is doubled. Add the diagonal only once
     diagonal-only: your off-diagonal entries are all 0, but the rotation of one joint
       also changes the torque at other joints
     only-z: your code uses only the z component of g, but gravity may point in any
@@ -133,18 +133,18 @@ def _(J_space, masses, coms, g):
       joint. Column j should use the axis of joint j
     z-axis: every column of your matrix rotates gravity about z. Column j should use the
       axis of joint j
-    turned-twice: your code rotates gravity twice, by omega_i and by omega_j. Rotate
-      gravity only by omega_j
-    v-for-omega: your code rotates gravity by v_j. The rotation axis of a joint is
+    turned-twice: your code rotates gravity about both omega_i and omega_j. Rotate
+      gravity only about omega_j
+    v-for-omega: your code rotates gravity about v_j. The rotation axis of a joint is
       omega_j, the upper three rows of J_space
     torque-added: your code adds g to g x omega_j, which adds the gravity torque itself.
       The stiffness is its derivative
     distal-joints-too: each of your entries also contains links that only one of the two
       joints moves. Use only the links from the later joint on, which both joints move
     roles-swapped: your code swaps the two joints. The later joint moves the centre of
-      mass, and the earlier joint rotates this velocity
-    screws-stay: in your code, joint j moves only the centres of mass. It should also
-      move the axes of the joints after it
+      mass, and the earlier joint rotates the velocity of this centre
+    screws-stay: your code lets joint j move only the centres of mass. Joint j should
+      also move the axes of the joints after it
     """
     omega = J_space[:3].T
     turned = np.cross(g, omega)

@@ -97,28 +97,31 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       each step
     Vxx-not-passed-on: your code uses Vxx of the final cost in every step. Update Vxx in
       each step
-    V-signs: your `Vx` and `Vxx` are Qx - Qux^T k and Qxx - Qux^T K. The minus sign is
-      already in k and K
+    V-signs: your `Vx` and `Vxx` subtract Qux^T k and Qux^T K. Add these terms, because
+      k and K already contain the minus sign
     nothing-saved: your `Vx` and `Vxx` are Qx and Qxx. Add the terms with the gains,
       which reduce the cost
-    drop-last-step: your `drop` contains the values of only one step. Sum them over all
-      steps
+    drop-last-step: your `drop` contains the values of only one step. Sum the values
+      over all steps
     half-in-the-first: your code halves the first entry of `drop`. Only the second entry
       has a factor 1/2
-    drop-summed: your `drop` is the sum of its two entries. Return them separately
-    drop-of-lu: your first entry of `drop` uses lu. It should be the sum of k . Qu
-    drop-of-luu: your second entry of `drop` uses luu. It should be the sum of k . Quu k
-      / 2
-    drop-signs: your `drop` has the wrong sign. It should be the change in cost, so k .
-      Qu is negative
+    drop-summed: your `drop` is the sum of its two entries. Return the two entries
+      separately
+    drop-of-lu: the first entry of your `drop` uses lu. It should be the sum of k . Qu
+    drop-of-luu: the second entry of your `drop` uses luu. It should be the sum of k .
+      Quu k / 2
+    drop-signs: your `drop` has the wrong sign. It should be the change in cost, so its
+      first entry is negative
     drop-added: both entries of your `drop` are the sum of the two. Return the two
       entries separately
     drop-quadratic-sign: the second entry of your `drop` has the wrong sign. It should
       be the sum of k . Quu k / 2, which raises the cost if Quu is positive definite
-    gain-signs: your k and K have the wrong sign. The input changes by du = k + K dx
+    gain-signs: your k and K have the wrong sign. The input changes by du = k + K dx, so
+      both contain a minus sign
     K-sign: your K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x in
       the LQR
-    gain-signs 2: your k and K have the wrong sign. The input changes by du = k + K dx
+    gain-signs 2: your k and K have the wrong sign. The input changes by du = k + K dx,
+      so both contain a minus sign
     K-sign 2: your K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x
       in the LQR
     diagonal-of-Quu: your gains use only the diagonal of Quu. Solve with the whole
@@ -128,10 +131,10 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     forwards: your pass goes from the first step to the last. At first, only the
       cost-to-go of the final state is known, so begin with the last step
     lux-not-in-K: your code omits lux in K, but not in Vx and Vxx. Use Qux, which
-      contains lux, in all of them
-    Vx-not-in-k: your k uses only lu. Qu also contains fu^T Vx
+      contains lux, in K, Vx and Vxx
+    Vx-not-in-k: your k uses only lu. Use Qu, which also contains fu^T Vx
     mu-halved-each-step: your code halves mu in each step. Use the same mu in all steps
-    lx-of-the-next: each step in your code uses lx of the next step. Use lx of the same
+    lx-of-the-next: your code uses lx of the next step in each step. Use lx of the same
       step
     drop-mean: your code divides `drop` by the number of steps. It should be the sum
       over the steps

@@ -28,18 +28,18 @@ def _(rng):
 @row.wrongs
 def _(P, A, B, Q, R):
     """R-forgotten: your gain omits R, so the torque has no cost. Solve with R + B^T P B
-    R-once: your P omits the cost of the input. The form (A - B K)^T P (A - B K) also
-      needs K^T R K
+    R-once: your P omits the cost of the input. If you use (A - B K)^T P (A - B K), also
+      add K^T R K
     u-counted-twice: your code counts the cost of the input twice. The form Q + A^T P (A
       - B K) already contains K^T R K
     K-of-the-new-P: your code computes the gain from the new P. Use the argument P,
       which is the cost-to-go of the next state
-    gain-sign: your K has the wrong sign, because the minus sign is already in u = -K x
+    gain-sign: your K has the wrong sign. The minus sign is already in u = -K x
     A-P-AT: your code uses `A P A^T` instead of A^T P A. The first form propagates a
       covariance, and the second one a cost-to-go
     Q-for-P: your gain uses Q instead of P, the cost-to-go of the next state
     Q-in-the-gain: your gain uses P + Q instead of P. The cost x . Q x of this step does
-      not depend on u
+      not depend on u, so omit Q
     K-R-K-subtracted: your code subtracts K^T R K. Subtract K^T (R + B^T P B) K, by
       which the optimal input reduces the cost-to-go
     motion-forgotten: your P omits the cost-to-go of the next state. Add (A - B K)^T P
@@ -51,7 +51,7 @@ def _(P, A, B, Q, R):
     K-K-added: your code adds K^T K. Add K^T R K, which is the cost of the input
     P-not-updated: your code returns P unchanged. Return the cost-to-go matrix of one
       step earlier
-    P-halved: your P is half as large as it should be. The cost of this day has no
+    P-halved: your P is half as large as it should be. The cost in this task has no
       factor 1/2
     """
     F = B.T @ P @ A

@@ -39,10 +39,9 @@ def _(theta, observation):
     clipped-after: your code clamps the action. Clamp theta before you use it
     clipped-below-only: your code clamps theta only at LOW. Clamp it at HIGH too
     clipped-above-only: your code clamps theta only at HIGH. Clamp it at LOW too
-    half-clipped: your code clamps only the last three entries of theta. Clamp all of
-      them
-    shift-forgotten: your code omits the shift, which the first two entries of theta
-      contain
+    half-clipped: your code clamps only the last three entries of theta. Clamp all
+      entries
+    shift-forgotten: your code omits the shift, the first two entries of theta
     x-shift-only: your code omits the shift along the y axis of the cube
     opening-and-height-swapped: your code swaps the height and the opening. The order
       should be (x, y, yaw, height, opening, lift)

@@ -59,20 +59,20 @@ def of_best(samples, best):
 @row.wrongs(hidden={"nan-is-zero": "no NaN of the lab has a score below 0 beside it"})
 def _(mean, std, noise, scores, elite):
     """nan-first: your elite contains a sample with the score NaN. The function
-      np.argsort sorts NaN last, so [::-1] puts it first
+      np.argsort puts NaN last, so an order reversed with [::-1] begins with NaN
     nan-first 2: your elite contains a sample with the score NaN. The function
-      np.argsort sorts NaN last, so [::-1] puts it first
+      np.argsort puts NaN last, so an order reversed with [::-1] begins with NaN
     nan-first 3: your elite contains a sample with the score NaN. The function
-      np.argsort sorts NaN last, so [::-1] puts it first and also reverses the order of
-      equal scores
+      np.argsort puts NaN last, so an order reversed with [::-1] begins with NaN. It
+      also reverses the order of equal scores
     ties-last-first: your code keeps the last of several equal scores. Keep the first
       ones
     std-kept: your `std` is unchanged. Return the standard deviation of the elite
     n-minus-one: your standard deviation divides by elite - 1. Divide by elite
     about-the-old-mean: your code takes the standard deviation about the old mean. Take
-      it about the mean of the elite
+      the standard deviation about the mean of the elite
     one-spread-for-all: all parameters in your result have the same standard deviation.
-      Each should have its own, so use axis=0
+      Each parameter should have its own, so use axis=0
     best-left-out: your code leaves out the best sample, so the elite begins with the
       second one
     nan-is-zero: your code treats NaN as a score of 0. Treat NaN as worse than all other

@@ -68,7 +68,7 @@ def _(normal, mu, k):
     length-1: your code normalises the edges. Their component along the normal should be
       1
     mu-is-an-angle: your code uses mu as the angle of the cone. The coefficient of
-      friction is already the tangent of that angle
+      friction is already the tangent of this angle, so use mu itself
     normal-left-in-mu: your code also multiplies the normal by mu. It should multiply
       only the tangential part by mu
     in-columns: your matrix has one edge per column. It should have one edge per row

@@ -35,10 +35,10 @@ def _(force, normal, mu):
       normal force is the component along the normal
     force-length-for-press 2: your code uses the norm of the whole force as f_n. The
       normal force is the component along the normal
-    one-length-for-all: your code takes one norm over all contacts. Each contact has its
-      own norm, so use axis=1
+    one-length-for-all: your code takes one norm of the tangential forces of all
+      contacts together. Take the norm of each contact's force, with axis=1
     mu-is-an-angle: your code uses mu as the angle of the cone. The coefficient of
-      friction is already the tangent of that angle
+      friction is already the tangent of this angle, so use mu itself
     normal-is-z 3: your code uses the z component of the force as f_n. The normal force
       is the component along the contact's own normal
     normal-is-z: your code uses the normal (0, 0, 1) for every contact. Each contact has
@@ -54,8 +54,8 @@ def _(force, normal, mu):
     ratio 3: your result is |f_t| / (mu f_n). The margin should be a force: mu f_n -
       |f_t|
     mu-times-along: your code multiplies |f_t| by mu. It should multiply f_n by mu
-    normal-into-the-finger: your f_n has the wrong sign. The normal should point out of
-      the finger, into the cube
+    normal-into-the-finger: your f_n has the wrong sign. The normal points out of the
+      finger, into the cube
     margin-of-the-first: every contact in your result has the margin of the first. Each
       contact should have its own margin
     over-the-cone: your result is the distance from the surface of the cone. Do not

@@ -99,8 +99,8 @@ def _(finger_position, force, normal, mu, fraction, step):
     stopped-at-0: your finger position stops at 0. It should stop at LOW[4]
     stopped-too-early: your code leaves out a step that would go beyond LOW[4]. The step
       should end at LOW[4]
-    outside-only: your pads close only if a margin is below 0, but then the contact
-      slips already
+    outside-only: your pads close only if a margin is below 0. Such a contact already
+      slips, so close the pads earlier
     the-other-way: your code reverses the comparison, so the pads close if a margin is
       large. Close them if a margin is small
     closes-to-the-limit: your pads close to the limit at once. Subtract one step per

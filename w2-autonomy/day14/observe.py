@@ -54,8 +54,8 @@ def fold(yaw, period=QUARTER):
 def _(T_seen, noise):
     """not-folded: your code does not reduce the yaw. A cube looks the same after a
       rotation by pi/2, so reduce the yaw modulo pi/2
-    folded-to-0-to-90: your code reduces the yaw to [0, pi/2). It should be in [-pi/4,
-      pi/4)
+    folded-to-0-to-90: your code reduces the yaw to [0, pi/2). The yaw should be in
+      [-pi/4, pi/4)
     folded-by-pi: your code reduces the yaw modulo pi, but a cube already looks the same
       after pi/2
     folded-by-pi-over-4: your code reduces the yaw modulo pi/4, but a cube looks the
@@ -72,7 +72,7 @@ def _(T_seen, noise):
       first column
     arcsine: your yaw is arcsin(R[1, 0]), which covers only the range from -pi/2 to
       pi/2. Use both entries of the first column
-    noise-in-the-cubes-axes: your code rotates the noise into the frame of the cube. Add
+    noise-in-the-cubes-axes: your code adds the noise along the axes of the cube. Add
       the noise to x and y in the world frame
     x-and-y-swapped: your code swaps x and y. The order should be (x, y, yaw)
     yaw-first: your yaw comes first. The order should be (x, y, yaw)

@@ -26,8 +26,8 @@ def _(first, second):
       differences
     n-minus-one: your standard deviation divides by n - 1. Divide by n
     n-minus-one 2: your standard error divides by sqrt(n - 1). Divide by sqrt(n)
-    root-of-the-mean-square: your code takes the standard deviation about 0. Take it
-      about the mean difference
+    root-of-the-mean-square: your code takes the standard deviation about 0. Take the
+      standard deviation about the mean difference
     interval: your second result is 1.96 standard errors. Return one standard error
     which-differ: your first result is the fraction of the cubes on which the two
       policies differ. Return the mean difference

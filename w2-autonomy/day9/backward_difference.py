@@ -66,8 +66,8 @@ for slug, says, other in (
     ("from-the-first", "your code divides the change since the first sample by dt. Use "
                        "the change since the previous sample",
      {"change": lambda q: q - q[0]}),
-    ("by-its-time", "your code divides each change by the time k dt since the start, "
-                    "but the change happened during one dt",
+    ("by-its-time", "your code divides each change by the time since the start. Each "
+                    "change happened within one period, so divide it by dt",
      {"change": lambda q: backward(q) / np.maximum(np.arange(len(q)), 1)}),
     ("last-left-out", "your last velocity is 0. Does your loop end one sample too "
                       "early?",
@@ -75,8 +75,9 @@ for slug, says, other in (
     ("second-left-out", "your second velocity is 0. Does your loop begin one sample "
                         "too late?",
      {"change": lambda q: np.append([0.0, 0.0], np.diff(q)[1:])}),
-    ("twice", "your code takes the difference twice, which gives an acceleration "
-              "times dt. Take it once", {"change": lambda q: backward(backward(q))}),
+    ("twice", "your code takes the difference of the differences, which gives an "
+              "acceleration times dt. Take the difference only once",
+     {"change": lambda q: backward(backward(q))}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(velocity, **other))
 

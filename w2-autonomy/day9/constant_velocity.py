@@ -23,22 +23,23 @@ def noise(a, b, c, accel_psd):
 def _(dt, accel_psd):
     """F-without-dt: your F has 1 instead of dt, which is correct only for a period of
       one second
-    F-identity: your F is the identity. The angle should change by dt times the velocity
+    F-identity: your F is the identity matrix. The angle should change by dt times the
+      velocity
     Q-diagonal-only: your Q is diagonal, but a velocity change during dt also changes
       the angle, so the two errors are correlated
     Q-of-a-held-acceleration: your Q is correct for an acceleration that is constant
       over dt (dt^4 / 4, dt^3 / 2, dt^2). White noise gives dt^3 / 3, dt^2 / 2 and dt
-    Q-is-q-1: your Q is accel_psd times the identity. Q should depend on dt, and the
-      angle and the velocity have different units
-    Q-is-q-dt-1: your Q is accel_psd dt times the identity, but the noise acts on the
-      velocity, and the angle only integrates it
+    Q-is-q-1: your Q is accel_psd times the identity matrix. Q should depend on dt, and
+      its entries have different units
+    Q-is-q-dt-1: your Q is accel_psd dt times the identity matrix. The noise acts on the
+      velocity, and the angle is the integral of the velocity, so the two entries differ
     Q-speed-only: your Q has only the velocity entry, accel_psd dt, but a velocity
       change during dt also changes the angle
-    q-squared: your code squares accel_psd, but a power spectral density is already
-      proportional to a variance
+    q-squared: your code squares accel_psd. Use accel_psd itself, because a power
+      spectral density is already proportional to a variance
     off-diagonal-sign: the off-diagonal entries of your Q are negative, but a positive
       velocity change also increases the angle
-    speed-first: your code swaps the rows and columns of Q. The state is (angle;
+    speed-first: your code swaps the angle and the velocity in Q. The state is (angle;
       velocity)
     """
     F, Q = constant_velocity(dt, accel_psd)

@@ -32,28 +32,27 @@ for slug, says, other in (
     ("at-kd", "your w is kd, the crossover frequency of the derivative term alone. The "
               "proportional term increases the amplitude, so w should be larger",
      {"w": lambda kp, kd: kd}),
-    ("strengths-added", "your w^2 is kp + kd^2. The two terms differ in phase by 90 "
-                        "degrees, so the amplitude of their sum is sqrt(kp^2 + kd^2 "
-                        "w^2)",
+    ("strengths-added", "your w^2 is kp + kd^2. At the crossover frequency, w^2 = "
+                        "sqrt(kp^2 + kd^2 w^2), because the two terms differ in phase "
+                        "by 90 degrees",
      {"w": lambda kp, kd: np.sqrt(kp + kd**2)}),
     ("minus-in-the-root", "your code subtracts 4 kp^2 under the inner root. The "
-                          "solution of w^4 - kd^2 w^2 - kp^2 = 0 has a plus sign there",
+                          "solution of w^4 - kd^2 w^2 - kp^2 = 0 contains the root of "
+                          "kd^4 + 4 kp^2",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(abs(kd**4 - 4 * kp**2))) / 2)}),
     ("half-left-out", "your code does not halve kd^2 in the quadratic formula. The "
                       "roots of x^2 - kd^2 x - kp^2 = 0 are kd^2 / 2 +- sqrt(kd^4 / "
                       "4 + kp^2)",
      {"w": lambda kp, kd: np.sqrt(kd**2 + np.sqrt(kd**4 + kp**2))}),
     ("neither-squared", "your quadratic formula uses kd and kp instead of their "
-                        "squares. The unknown is w^2, so its roots contain kd^2, "
-                        "kd^4 and kp^2",
+                        "squares. The unknown of the quadratic equation is w^2, so "
+                        "the formula contains kd^2, kd^4 and kp^2",
      {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**2 + 4 * kp)) / 2)}),
-    ("inverted", "your code inverts the fraction in atan. The phase lead is the "
-                 "angle from the proportional term kp towards the derivative term kd "
-                 "w, so it is 0 if kd is 0",
+    ("inverted", "your code inverts the fraction in atan. The phase lead should be 0 "
+                 "if there is no derivative term (kd = 0)",
      {"angle": lambda kp, kd, w: np.arctan(kp / (kd * w))}),
-    ("from-the-far-side", "your angle is pi minus the phase lead, but the phase "
-                          "margin is the distance from -180 degrees, which is the "
-                          "phase lead itself",
+    ("from-the-far-side", "your angle is pi minus the phase lead. The phase margin is "
+                          "measured from -180 degrees, so it is the phase lead itself",
      {"angle": lambda kp, kd, w: np.pi - np.arctan(kd * w / kp)}),
     ("in-cycles", "your code divides the angle by the frequency in Hz, but the angle "
                   "is in radians, so divide by w in rad/s",
@@ -67,7 +66,7 @@ def _(kp, kd):
     """critical-only: your result is 0.6474 / sqrt(kp), which is the delay margin only
       for critical damping. Use the phase lead and the crossover frequency
     damper-alone: your result is pi / (2 kd), the delay margin without a proportional
-      term, but kp changes the phase lead and the crossover frequency
+      term. The gain kp changes both the phase lead and the crossover frequency
     """
     return {"critical-only": 0.6474 / np.sqrt(kp), "damper-alone": np.pi / 2 / kd}
 

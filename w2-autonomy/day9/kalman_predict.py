@@ -26,8 +26,8 @@ def _(rng):
 def _(x, P, F, Q):
     """transposed-on-the-left: your new covariance is F^T P F + Q. If the error e
       becomes F e, then e e^T becomes F e e^T F^T, so F belongs on the left
-    P-not-carried: your new covariance is P + Q. F also changes the old error, so
-      transform P with F
+    P-not-carried: your new covariance is P + Q. The matrix F also transforms the error
+      of the old state, so transform P with F
     Q-carried-too: your code also transforms Q with F. Add Q after the transformation
     entry-by-entry: your function multiplies F and P entry by entry with `*`. Use `@`
       for the matrix product

@@ -51,8 +51,8 @@ for slug, says, other in (
                       "to 7",
      {"felt": lambda i: slice(i, i + 1)}),
     ("later-links-only",
-     "your code omits the contribution of link i itself, but the sum should begin "
-     "with link i",
+     "your code omits the contribution of link i itself. The sum should begin with "
+     "link i",
      {"felt": lambda i: slice(i + 1, None)}),
     ("last-link-left-out", "your code omits the contribution of link 7. Does your "
                            "loop end one link too early?",
@@ -67,8 +67,8 @@ for slug, says, other in (
     ("omega-alone", "your code rotates only the angular part of V_i, but ad(S_i) acts "
                     "on the linear part as well",
      {"turned": lambda S, V: np.append(np.cross(S[:3], V[:3]), np.zeros(3))}),
-    ("own-twist-only", "your V_i contains only the velocity of joint i. Sum over "
-                       "joints 1 to i",
+    ("own-twist-only", "your V_i contains only the velocity of joint i. It should be "
+                       "the sum over joints 1 to i",
      {"twists": lambda S, qd: S * qd[:, None]}),
     ("outer-twists", "your V_i is the sum over joints i to 7, but joints 1 to i move "
                      "link i",

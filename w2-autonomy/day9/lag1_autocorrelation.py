@@ -36,15 +36,16 @@ def correlation(
 
 AS_IT_IS = {"above": lambda y: y}
 for slug, says, other in (
-    ("mean-not-taken-off", "your code does not subtract the mean, but a constant "
-                           "offset alone makes neighbours correlated",
+    ("mean-not-taken-off", "your code does not subtract the mean. Subtract the mean "
+                           "first, because with a constant offset neighbours seem to "
+                           "be correlated",
      {**AS_IT_IS, "below": lambda y: y}),
     ("mean-left-in-the-products", "your code subtracts the mean before it computes "
                                   "the squares, but not before it computes the "
-                                  "products. Subtract it for both", AS_IT_IS),
-    ("mean-left-in-the-squares", "your code subtracts the mean before it computes "
-                                 "the products, but not before it computes the "
-                                 "squares. Subtract it for both",
+                                  "products. Subtract the mean for both", AS_IT_IS),
+    ("mean-left-in-the-squares", "your code subtracts the mean before it computes the "
+                                 "products, but not before it computes the squares. "
+                                 "Subtract the mean for both",
      {"below": lambda y: y}),
     ("squares-of-the-first", "your denominator omits the square of the last entry. Use "
                              "all n squares",
@@ -56,7 +57,7 @@ for slug, says, other in (
                   "Use the sum of all n squares",
      {"squares": lambda d: np.sqrt((d[1:] @ d[1:]) * (d[:-1] @ d[:-1]))}),
     ("by-n-sigma", "your code divides the mean product by the standard deviation. "
-                   "Divide by the variance, so that the unit cancels",
+                   "Divide it by the variance, so that the unit cancels",
      {"squares": lambda d: np.sqrt(d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
     ("mean-of-products", "your code divides the mean of n - 1 products by the mean of "
                          "n squares. Divide the sum of the products by the sum of the "
@@ -71,10 +72,11 @@ for slug, says, other in (
     ("mean-by-sum", "your code divides the mean of the products by the sum of the "
                     "squares. Use the sum of the products instead",
      {"share": lambda n: 1 / n}),
-    ("lag-two", "your code multiplies each entry by the second entry after it. Use its "
-                "direct neighbour", {"pairs": lambda d: d[2:] @ d[:-2]}),
+    ("lag-two", "your code multiplies each entry by the second entry after it. "
+                "Multiply each entry by its direct neighbour",
+     {"pairs": lambda d: d[2:] @ d[:-2]}),
     ("lag-zero", "your code multiplies each entry by itself, so the result is always "
-                 "1. Multiply it by its neighbour", {"pairs": lambda d: d @ d}),
+                 "1. Multiply each entry by its neighbour", {"pairs": lambda d: d @ d}),
     ("round-the-corner", "your code multiplies the last entry by the first, as with "
                          "np.roll, but the last and the first entry are not "
                          "neighbours",

@@ -37,16 +37,18 @@ def _(rng):
 
 @row.wrongs
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
-    """gravity-sign: your code uses `gravity` with the wrong sign. The argument is the
+    """gravity-sign: your code adds `gravity`. Subtract it, because the argument is the
       torque that holds the arm, and the weight acts in the opposite direction
-    residual-without-dt: your code adds the old residual to the integral without dt, but
-      a torque times dt is a momentum
+    residual-without-dt: your code adds the old residual to the integral without the
+      factor dt. Multiply the residual by dt, because the integral is a momentum and the
+      residual is a torque
     integral-of-before: your residual uses the old integral. Update the integral first
     integral-not-handed-on: your code returns the old integral. Return the new one
-    fed-back-times-gain: your code multiplies the old residual by the gain in the
-      integral, but the residual is already a torque
-    low-passed-again: your residual is gain (momentum - integral), filtered by a second
-      low pass. Return this value itself, because the integral already filters it
+    fed-back-times-gain: your integral contains the old residual times the gain. Add the
+      residual without the gain, because it is already a torque
+    low-passed-again: your code adds gain (momentum - integral) times dt to the old
+      residual. Return gain (momentum - integral) alone, because the integral already
+      makes it a low pass
     residual-kept: your code adds the old residual to the new one. Return the new
       residual alone => both
     residual-taken-off: your code subtracts the old residual from the new one. Return

@@ -6,7 +6,7 @@ import numpy as np
 
 from labkit.judge import Row, Vector
 
-row = Row(Vector((2,), names=("the low one", "the high one")))
+row = Row(Vector((2,), names=("the lower end", "the upper end")))
 
 
 @row.inputs
@@ -32,7 +32,8 @@ for slug, says, other in (
     ("added-for-multiplied", "your c contains n + m, but the sum of n NIS values has n "
                              "m degrees of freedom",
      {"c": lambda n, m: 2 / (9 * (n + m))}),
-    ("whole-division", "your c is 0, because // discards the fraction of 2 / (9 n m)",
+    ("whole-division", "your c is 0, because // discards the fraction of 2 / (9 n m). "
+                       "Use the operator /",
      {"c": lambda n, m: 2 // (9 * n * m)}),
     ("shift-forgotten", "your function uses 1 as the mean of the cube root, but the "
                         "mean is 1 - c", {"middle": lambda c: 1.0}),
@@ -56,10 +57,12 @@ for slug, says, other in (
 @row.wrongs
 def _(n, m):
     """normal: your interval m +- 1.96 sqrt(2 m / n) treats the mean NIS as Gaussian.
-      Its distribution is skewed, and only its cube root is nearly Gaussian
+      The distribution of the mean NIS is skewed, and only its cube root is nearly
+      Gaussian
     one-over-n: your interval m +- 1.96 / sqrt(n) assumes a standard deviation of 1 for
-      each NIS, but the standard deviation is sqrt(2 m)
-    cube-inside: your code cubes 1 - c and 1.96 sigma separately. Cube their sum
+      each NIS. The standard deviation of a NIS is sqrt(2 m)
+    cube-inside: your code cubes 1 - c and 1.96 sqrt(c) separately. Cube their sum and
+      their difference
     """
     c = 2 / (9 * n * m)
     half = 1.96 * np.sqrt(2 * m / n)

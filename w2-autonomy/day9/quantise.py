@@ -44,8 +44,8 @@ for slug, says, other in (
                           "an encoder reports the nearest whole count",
      {"whole": lambda k: np.floor(k) + 0.5}),
     ("one-count-fewer", "your code divides a revolution by counts - 1, which omits "
-                        "the step from the last count back to the first. Divide it "
-                        "by `counts`",
+                        "the step from the last count back to the first. Divide the "
+                        "revolution by `counts`",
      {"step": lambda n: 2 * np.pi / (n - 1)}),
     ("no-pi", "your angle per count is 1 / counts. It should be 2 pi / counts, because "
      "q is in radians", {"step": lambda n: 1 / n}),

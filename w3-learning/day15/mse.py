@@ -25,18 +25,17 @@ row.cases(
 
 @row.wrongs
 def _(pred, target):
-    """summed-over-columns: in your code, the squares are summed over the columns
-      and averaged over the rows. Take the mean over all n m entries
-    summed-over-columns 2: your loss sums the squares over the columns and averages
-      them over the rows. Take the mean over all n m entries
-    absolute: your loss is the mean of the absolute errors. Take the mean of their
-      squares
+    """summed-over-columns: your loss and its gradient use the sum over the columns and
+      the mean over the rows. Take the mean over all n m entries
+    summed-over-columns 2: your loss uses the sum over the columns and the mean over the
+      rows. Take the mean over all n m entries
+    absolute: your loss is the mean absolute error. Return the mean squared error
     not-divided: your gradient is 2 (pred - target). The loss is a mean over n m
-      entries, so divide the gradient by n m as well
-    divided-by-rows: your gradient is divided by the number of rows. The loss is a
-      mean over rows and columns, so divide by n m
-    half: your loss and its gradient are half as large, as for the convention
-      error^2 / 2
+      entries, so divide the gradient by n m
+    divided-by-rows: your code divides the gradient only by the number of rows. The loss
+      is a mean over rows and columns, so divide by n m
+    half: your loss and its gradient contain an extra factor 1/2. The mean squared error
+      has no such factor
     """
     e = pred - target
     n = len(e)
