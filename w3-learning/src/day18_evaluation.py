@@ -260,15 +260,15 @@ def check_growth(lab: Lab) -> None:
 def growths(lab: Lab) -> None:
     """Compare the lateral error with the prediction, for three gains."""
     print("  gain, 1/s      a   predicted   measured, mm")
+    errors = {}
     for K in GAINS:
         a, step = growth(K)
         predicted = error_after(a, step, STEPS)
         measured = measured_error(K)
         print(f"  {K:9.0f} {a:6.3f} {1e3 * predicted:11.2f} {1e3 * measured:10.2f}")
-        if K == 1:
-            lab.measured("lateral error with the gain 1, mm", 1e3 * measured)
-        if K == 3:
-            off = measured / predicted - 1
+        errors[K] = predicted, measured
+    lab.measured("lateral error with the gain 1, mm", 1e3 * errors[1.0][1])
+    off = errors[3.0][1] / errors[3.0][0] - 1
     lab.record("growth", off, label="|measured / predicted - 1| with the gain 3")
 
 
@@ -473,7 +473,7 @@ def luck(lab: Lab, fresh: np.ndarray, own: np.ndarray) -> None:
     found = []
     for some in rng.integers(0, TESTED, (DRAWS // 4, 50)):
         found.append(sign_test(fresh[some], own[some]) <= 0.05)
-    said(lab, "tests that report a difference", power, np.mean(found))
+    print(f"    predicted {power:.2f}, measured {np.mean(found):.2f}")
     lab.record("power", np.mean(found) - power, label="|measured - predicted|")
 
     print("  six tests of one policy on 20 starts each: the best of them")
