@@ -33,21 +33,21 @@ def _(rng):
 
 @row.wrongs
 def _(first, second):
-    """numbers-collide: the numbers of the second data set are unchanged in your
-      result, so episodes of the two sets have the same number. Add the largest
-      number in the first set plus 1
-    shift-by-last: your shift is the last number in the first data set plus 1. The
-      last number is not always the largest one
-    shared-number: your shift is the largest number in the first data set, so its
-      last episode and the first new one have the same number. Add 1
-    counted: your shift is the number of episodes in the first data set. If a number
-      is missing there, this is not larger than every number in use
-    counted-rows: your shift is the number of rows in the first data set. Episodes
-      go on after the largest number
-    new-only: the old rows are missing from your result. Return the rows of the
-      first data set, and then the second set
-    second-first: in your code, the rows of the second data set come first. Put them
-      after the rows of the first data set
+    """numbers-collide: your code does not shift the numbers of the second data set,
+      so episodes of both sets have the same number. Add the largest number in the
+      first set plus 1
+    shift-by-last: your code shifts by the last number in the first data set plus 1.
+      Use the largest number, because the numbers can have any order
+    shared-number: your code shifts by the largest number in the first data set. Add
+      1, because otherwise two episodes have this number
+    counted: your code shifts by the number of episodes in the first data set. Use
+      the largest number plus 1, because some numbers can be missing
+    counted-rows: your code shifts by the number of rows in the first data set. Use
+      the largest episode number plus 1
+    new-only: your result omits the rows of the first data set. Return the old rows,
+      and then the rows of the second data set
+    second-first: your code puts the rows of the second data set first. Put these
+      rows after the rows of the first data set
     renumbered: your code numbers all episodes again from 0. Keep the numbers of the
       first data set
     """

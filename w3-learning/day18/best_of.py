@@ -34,12 +34,12 @@ def _(rng):
 
 @row.wrongs
 def _(p, n, k):
-    """mean: your result is the mean success rate. The best of several tests is
-      above it on average
-    any-success: your result is the probability that at least one of k starts
-      succeeds. It is a question about the largest of k numbers of successes
-    worst: your result is the expected rate of the worst policy. The best has at
-      most s successes if all have at most s
+    """mean: your result is the mean success rate. Return the expected rate of the
+      best of k tests, which is larger
+    any-success: your result is the probability of at least one success in k trials.
+      Return the expected largest of k numbers of successes, divided by n
+    worst: your result is the expected rate of the worst policy. The best policy has
+      at most s successes if all k policies have at most s
     """
     cdf = np.cumsum(pmf(n, p))
     below = np.minimum(cdf[:n], 1.0)

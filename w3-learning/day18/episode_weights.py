@@ -33,19 +33,20 @@ def _(rng):
 
 @row.wrongs
 def _(episode):
-    """one-over-length: your weights of each episode have the sum 1, so their mean
-      is not 1. Multiply them by the number of rows divided by the number of
-      episodes
-    sums-to-1: the sum of all your weights is 1. Their mean should be 1, so multiply
-      them by the number of rows
-    length: your weights are proportional to the length of the episode. A long
-      episode should have small weights, so that all episodes have the same total
-    root: your weights are proportional to 1 / sqrt(length). The sum over an episode
-      is then still larger for a long one. Use 1 / length
+    """one-over-length: your weights of each episode have the sum 1, so the mean of
+      all weights is not 1. Multiply by the number of rows and divide by the number
+      of episodes
+    sums-to-1: the sum of all your weights is 1. The mean should be 1, so multiply
+      the weights by the number of rows
+    length: your weights are proportional to the length of the episode. Divide by the
+      length, so that a long episode has small weights
+    root: your weights are proportional to 1 / sqrt(length). Use 1 / length, so that
+      all episodes have the same total weight
     by-runs: your code begins a new episode at each change of the number. Rows with
-      the same number belong to one episode, also if they are not adjacent
-    equal: your weights are all 1. Then a long episode has more influence than a
-      short one
+      the same number belong to one episode, even if other rows are between these
+      rows
+    equal: your weights are all 1, so a long episode has more influence than a short
+      one. Divide by the length of the episode
     per-episode: your result has one weight per episode. Return one weight per row
     """
     _, of, length = np.unique(episode, return_inverse=True, return_counts=True)

@@ -35,18 +35,18 @@ def _(rng):
 
 @row.wrongs
 def _(a, step, T):
-    """always-linear: your error grows by the same amount in each step. The error
-      that is already there is multiplied by a as well
-    limit: your function returns the limit of the error after many steps. After T
-      steps the term with a^T is still missing from it
-    one-error: your function lets a single error grow by the factor a in each step.
-      Each of the T steps adds an error of its own, so return a sum
-    one-error 2: your function lets a single error grow by the factor a in each
-      step. Each of the T steps adds an error of its own, so return a sum
-    continuous: your code uses exp((a - 1) T), which holds for very many small
-      steps. The recursion multiplies by a once per step, so use a^T
-    step-multiplied: in your code, the new error is multiplied by a as well.
-      Multiply the old error by a first and then add the new one
+    """always-linear: your error grows by the same amount in each step. Each step
+      also multiplies the present error by a
+    limit: your function returns the limit of the error for many steps, s / (1 - a).
+      Include the term with a^T, because T is finite
+    one-error: your function lets a single error grow by the factor a per step. Each
+      of the T steps adds an error, so return a sum
+    one-error 2: your function lets a single error grow by the factor a per step.
+      Each of the T steps adds an error, so return a sum
+    continuous: your code uses exp((a - 1) T), which is a limit for small steps. The
+      recursion multiplies by a in each step, so use a^T
+    step-multiplied: your code also multiplies the new error by a. Multiply only the
+      present error by a, and then add the new error
     """
     a = np.float64(a)
     geometric = step * np.sum(a ** np.arange(T))

@@ -40,19 +40,19 @@ def _(rng):
 
 @row.wrongs
 def _(p, n, gap):
-    """rates-as-floats: your code compares a difference of rates with gap / n. These
-      divisions are rounded, so some pairs with exactly this gap are lost. Compare
-      whole numbers of starts
-    one-direction: your function counts only the pairs in which the first test has
-      more successes. The difference may have either sign
-    one-set: your function compares one test with its expected value n p. Both tests
+    """rates-as-floats: your code compares a difference of rates with gap / n.
+      Compare whole numbers of starts, because the rounding of the rates excludes
+      some pairs with exactly this gap
+    one-direction: your function adds only the pairs in which the first test has more
+      successes. Include the pairs in which the second test has more
+    one-set: your function compares one test with the expected number n p. Both tests
       are random, so sum over pairs
-    normal: your function uses a normal approximation. For so few starts it is not
-      exact enough, so sum the binomial probabilities
+    normal: your function uses a normal approximation. Sum the binomial
+      probabilities, because the approximation is poor for few starts
     half-a-start: your function uses a normal approximation with a continuity
-      correction. Sum the binomial probabilities instead
-    exactly: your function adds only the pairs with exactly this gap. Larger
-      differences belong to the sum as well
+      correction. Sum the binomial probabilities
+    exactly: your function adds only the pairs with exactly this gap. Include the
+      pairs with a larger difference
     """
     k = np.arange(n + 1)
     one = pmf(n, p)

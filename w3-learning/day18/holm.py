@@ -30,22 +30,22 @@ def _(rng):
     hidden={"benjamini-hochberg": "the lab's p-values are not near these limits"}
 )
 def _(p):
-    """uncorrected: your code compares each p-value with 0.05. With m comparisons,
-      luck alone has m chances to get below it
-    bonferroni: your code compares each p-value with 0.05 / m (Bonferroni). Holm's
-      method compares the next one with 0.05 / (m - 1), and so on
-    no-stop: your code goes on after a p-value that is larger than its limit. Stop
-      there: all larger p-values are not significant either
-    hochberg: your code starts with the largest p-value and accepts all that are
-      smaller than the first which is below its limit (Hochberg). Start with the
-      smallest
-    sorted: your result is in the order of the sorted p-values. Return it in the
-      order of the argument
+    """uncorrected: your code compares each p-value with 0.05. With m comparisons
+      luck has m chances, so the limits should depend on m
+    bonferroni: your code compares each p-value with 0.05 / m (Bonferroni). In Holm's
+      method the limit of the next p-value is 0.05 / (m - 1), and so on
+    no-stop: your code continues after a p-value that is larger than its limit. Stop
+      there, because all larger p-values are not significant either
+    hochberg: your code starts with the largest p-value (Hochberg's method). Start
+      with the smallest p-value, and stop at the first that is larger than its limit
+    sorted: your result has the order of the sorted p-values. Return the result in
+      the order of the argument
     benjamini-hochberg: your limits are 0.05 (i + 1) / m (Benjamini and Hochberg).
-      Holm's limits are 0.05 / (m - i)
+      The limits of Holm's method are 0.05 / (m - i)
     indices: your result has the indices of the significant differences. Return a
       mask
-    negated: your mask is True for the differences that are not significant
+    negated: your mask is True for the differences that are not significant. Return
+      True for the significant differences
     """
     m = len(p)
     order = np.argsort(p, kind="stable")

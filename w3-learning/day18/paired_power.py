@@ -67,17 +67,18 @@ def one_tail(d):
 @row.wrongs
 def _(win, lose, n, level):
     """all-pairs-differ: your code lets the policies differ on all n starts. The
-      number of starts that differ is random, so sum over it
+      number of starts that differ is random, so sum over this number
     expected-number: your code uses the expected number of starts that differ,
-      rounded. The number is random, so sum over all of them
-    first-only: your function counts a reported difference only if the first policy
-      wins more often. The power includes both directions
-    one-sided: in your code, the p-value has one tail only. `sign_test` is two-sided
-    win-as-share: in your code, the wins among d starts have the probability win. On
-      a start that differs, it is win / (win + lose)
-    fair-share: in your code, the wins among d starts have the probability 1/2, as
-      if both policies were equally good. It is win / (win + lose)
-    normal: in your code, the p-value is a normal approximation. Use the exact
+      rounded. This number is random, so sum over all possible numbers
+    first-only: your function includes a reported difference only if the first policy
+      has more wins. Include both directions
+    one-sided: your code uses a one-sided p-value. Use both tails, as `sign_test`
+      does
+    win-as-share: your code draws the wins among d starts with the probability win.
+      On a start that differs, the probability is win / (win + lose)
+    fair-share: your code draws the wins among d starts with the probability 1/2, as
+      if both policies were equally good. Use win / (win + lose)
+    normal: your code uses a normal approximation of the p-value. Use the exact
       p-value of `sign_test`
     """
     differ = win + lose

@@ -71,26 +71,26 @@ def upto(k, d):
 @row.wrongs
 def _(first, second):
     """strict: your function adds only the splits that are more uneven than the
-      observed one. The observed split itself is at least as uneven, so it belongs
-      to the sum
+      observed split. Include the observed split, which is at least as uneven
     one-sided: your test is one-sided. A split in favour of the other policy is as
       uneven, so add both tails
-    first-better: your function computes the probability that the first policy wins
-      at least as often. The test is two-sided: add the other tail
-    not-capped: your p-value is above 1 for an even split, because both tails
-      contain it. A probability is at most 1
-    all-starts: your binomial distribution has all n starts. Starts on which both
-      policies succeed or both fail are no coin flips, so leave them out
-    agreement: your function counts the starts on which both succeed or both fail as
-      half a win for each policy. They show nothing, so leave them out
+    first-better: your function computes the probability that the first policy has at
+      least so many wins. The test is two-sided, so add the other tail
+    not-capped: your p-value is above 1 for an even split, because both tails contain
+      this split. Return at most 1
+    all-starts: your binomial distribution has all n starts. Omit the starts on which
+      both policies succeed or both fail
+    agreement: your function treats each start on which both policies succeed or both
+      fail as half a win. Omit these starts
     one-split: your p-value is twice the probability of the observed split alone.
-      Splits that are more uneven belong to it as well
+      Include all splits that are more uneven
     chi-squared: your function uses the chi-squared approximation of McNemar's test.
-      For few starts it is far off, so sum the binomial probabilities
+      Sum the binomial probabilities, because the approximation is poor for few
+      starts
     continuity: your function uses the chi-squared approximation of McNemar's test
-      with the continuity correction. Sum the binomial probabilities instead
-    unpaired: your function compares the two success rates as if the starts were
-      different ones. Use the starts on which the policies differ
+      with a continuity correction. Sum the binomial probabilities
+    unpaired: your function compares the two success rates as if the policies had
+      different starts. Use the starts on which the policies differ
     """
     win, lose = int(np.sum(first & ~second)), int(np.sum(second & ~first))
     d, n, k = win + lose, len(first), min(win, lose)

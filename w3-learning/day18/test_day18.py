@@ -120,6 +120,28 @@ def test_the_power_on_paper():
     assert f"$0.6^6$ = {0.6**6:.3f}" in SENTENCES
 
 
+def test_the_number_of_starts_for_a_power():
+    some = [lab.paired_power(0.24, 0.05, n, 0.05) for n in (64, 65)]
+    assert some[0] < 0.8 <= some[1]
+    assert "65 is the smallest number of starts" in SENTENCES
+
+
+def test_doubled_weights_change_nothing():
+    rng = np.random.default_rng(0)
+    pred, target = rng.normal(size=(2, 4, 2))
+    weight = rng.uniform(0, 1, 4)
+    one, two = (lab.weighted_mse(pred, target, k * weight) for k in (1, 2))
+    assert one[0] == pytest.approx(two[0])
+    assert one[1] == pytest.approx(two[1])
+
+
+@pytest.mark.kit
+def test_a_small_difference_needs_many_starts():
+    some = [lab.paired_power(0.145, 0.095, n, 0.05) for n in (760, 800)]
+    assert some[0] < 0.8 < some[1]
+    assert "the test needs about 790 starts" in SENTENCES
+
+
 def test_pairing_does_not_help_where_successes_hardly_depend_on_the_start():
     own = lab.paired_power(0.24, 0.05, 50, 0.05)
     k = np.arange(51)
@@ -209,6 +231,8 @@ def test_the_pucks_of_dagger_are_seldom_near_home(seed, own, demos):
     start = day15_mujoco.starts(30, np.random.default_rng(seed))
     with patch.object(lab, "SEED", seed):
         policy = lab.train(SILENT, "", lab.collect(start[:10], None, 0))
+    assert np.mean(lab.outcomes(policy, 100)) < 0.5
+    assert "A policy that was trained on 10 episodes fails in most of its" in SENTENCES
     near = []
     for k in (0, 60):
         seen, _, _ = lab.collect(start[10:20], policy, k)

@@ -33,21 +33,21 @@ row.cases(
 
 @row.wrongs
 def _(pred, target, weight):
-    """mean: your code divides by the number of rows instead of the sum of the
-      weights. The loss then grows if all weights are doubled
+    """mean: your code divides by the number of rows. Divide by the sum of the
+      weights, so that doubled weights give the same loss
     summed: your code does not divide by the sum of the weights. The loss is a
-      weighted mean, so it does not change if all weights are doubled
-    summed-over-columns: in your code, the squares are summed over the columns. Take
-      each row's mean squared error, as `mse` does
-    weight-squared: your code multiplies the error by the weight before it is
-      squared. Multiply the squared error by the weight
+      weighted mean, so doubled weights should give the same loss
+    summed-over-columns: your code sums the squares over the columns. Take the mean
+      over the columns, as `mse` does
+    weight-squared: your code multiplies the error by the weight before the square.
+      Multiply the squared error by the weight
     unweighted: your code ignores the weights
     gradient-unweighted: your gradient ignores the weights. The derivative of w e^2
       is 2 w e
     gradient-not-divided: your gradient is 2 w e. The loss is divided by the sum of
-      the weights and by the number of columns, so divide the gradient as well
-    gradient-mean: your gradient is divided by the number of rows. The loss is
-      divided by the sum of the weights, so divide the gradient by this sum as well
+      the weights and by the number of columns, so divide the gradient by both
+    gradient-mean: your code divides the gradient by the number of rows. The loss is
+      divided by the sum of the weights, so divide the gradient by this sum
     """
     e = pred - target
     n, m = e.shape
