@@ -24,6 +24,7 @@ def _(rng):
     yield rows(rng, [2, 2, 0, 0, 0], 3, 2), rows(rng, [0, 0], 3, 2)  # not in order
     yield rows(rng, [4, 4, 1]), rows(rng, [0, 1, 1, 2])
     yield rows(rng, [0, 0, 1, 1]), rows(rng, [1, 0])
+    yield rows(rng, [1, 0]), rows(rng, [0, 2, 4, 4])  # more episodes than the first
     for _ in range(5):
         one = rng.permutation(rng.integers(2, 9, int(rng.integers(2, 6))))
         other = np.sort(rng.integers(0, 3, int(rng.integers(1, 5))))
@@ -40,6 +41,8 @@ def _(first, second):
       Use the largest number, because the numbers can have any order
     shared-number: your code shifts by the largest number in the first data set. Add
       1, because otherwise two episodes have this number
+    largest-of-both: your code shifts by the largest number in both data sets plus
+      1. Use the largest number in the first set, so that no number is skipped
     counted: your code shifts by the number of episodes in the first data set. Use
       the largest number plus 1, because some numbers can be missing
     counted-rows: your code shifts by the number of rows in the first data set. Use
@@ -57,6 +60,7 @@ def _(first, second):
         "numbers-collide": 0,
         "shift-by-last": of[-1] + 1,
         "shared-number": of.max(),
+        "largest-of-both": max(of.max(), of_2.max()) + 1,
         "counted": len(np.unique(of)),
         "counted-rows": len(of),
     }

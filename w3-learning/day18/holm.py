@@ -17,6 +17,7 @@ def _(rng):
     yield (np.array([0.04, 0.045, 0.03, 0.012]),)  # the first fails, later ones do not
     yield (np.array([0.01, 0.02, 0.04]),)
     yield (np.array([0.009, 0.001, 0.3, 0.012, 0.02]),)
+    yield (np.array([0.0169, 0.5, 0.6]),)  # above 0.05 / 3
     for n in (2, 3, 3, 4, 4, 5, 6, 6, 8):
         yield (rng.numbers(0.001, 0.2, n) ** 1.5,)
 
@@ -27,13 +28,15 @@ def _(rng):
 
 
 @row.wrongs(
-    hidden={"benjamini-hochberg": "the lab's p-values are not near these limits"}
+    hidden=dict.fromkeys(
+        ("benjamini-hochberg", "sidak"), "the lab's p-values are not near these limits"
+    )
 )
 def _(p):
     """uncorrected: your code compares each p-value with 0.05. With m comparisons
       luck has m chances, so the limits should depend on m
-    bonferroni: your code compares each p-value with 0.05 / m (Bonferroni). In Holm's
-      method the limit of the next p-value is 0.05 / (m - 1), and so on
+    bonferroni: your code compares each p-value with 0.05 / m (Bonferroni). In
+      Holm's method the limit of the next p-value is 0.05 / (m - 1), and so on
     no-stop: your code continues after a p-value that is larger than its limit. Stop
       there, because all larger p-values are not significant either
     hochberg: your code starts with the largest p-value (Hochberg's method). Start
@@ -42,6 +45,10 @@ def _(p):
       the order of the argument
     benjamini-hochberg: your limits are 0.05 (i + 1) / m (Benjamini and Hochberg).
       The limits of Holm's method are 0.05 / (m - i)
+    limits-reversed: your limits are 0.05 / (i + 1), so the smallest p-value has the
+      limit 0.05. Compare the smallest p-value with 0.05 / m
+    sidak: your limits are 1 - 0.95^(1 / (m - i)) (Sidak), which requires
+      independent tests. The limits of Holm's method are 0.05 / (m - i)
     indices: your result has the indices of the significant differences. Return a
       mask
     negated: your mask is True for the differences that are not significant. Return
@@ -62,6 +69,9 @@ def _(p):
         found[order] = some
         return found
 
+    def falls(limits):
+        return np.logical_and.accumulate(p[order] <= limits)
+
     right = back(stop)
     return {
         "uncorrected": p <= 0.05,
@@ -70,6 +80,8 @@ def _(p):
         "hochberg": back(np.arange(m) <= last),
         "sorted": stop,
         "benjamini-hochberg": back(np.arange(m) <= slow),
+        "limits-reversed": back(falls(0.05 / np.arange(1, m + 1))),
+        "sidak": back(falls(1 - 0.95 ** (1 / np.arange(m, 0, -1)))),
         "indices": np.flatnonzero(right),
         "negated": ~right,
     }

@@ -70,10 +70,12 @@ def _(win, lose, n, level):
       number of starts that differ is random, so sum over this number
     expected-number: your code uses the expected number of starts that differ,
       rounded. This number is random, so sum over all possible numbers
-    first-only: your function includes a reported difference only if the first policy
-      has more wins. Include both directions
+    first-only: your function includes a reported difference only if the first
+      policy has more wins. Include both directions
     one-sided: your code uses a one-sided p-value. Use both tails, as `sign_test`
       does
+    independent: your code draws the numbers of wins and of losses independently. A
+      start cannot be a win and a loss, so draw the starts that differ first
     win-as-share: your code draws the wins among d starts with the probability win.
       On a start that differs, the probability is win / (win + lose)
     fair-share: your code draws the wins among d starts with the probability 1/2, as
@@ -89,6 +91,14 @@ def _(win, lose, n, level):
         found = zip(p_values(d), pmf(d, share), strict=True)
         return sum(part for p, part in found if p <= level)
 
+    def independent():
+        one, two = pmf(n, win), pmf(n, lose)
+        return sum(
+            one[k] * two[j] * (p_values(k + j)[k] <= level)
+            for k in range(n + 1)
+            for j in range(n + 1)
+        )
+
     def with_share(x):
         chances = pmf(n, min(differ, 1.0))
         seen = ((c, d, p_values(d), pmf(d, x)) for d, c in enumerate(chances))
@@ -100,6 +110,7 @@ def _(win, lose, n, level):
         "expected-number": given(whole),
         "first-only": power(win, lose, n, level, reported=lambda k, d: 2 * k > d),
         "one-sided": power(win, lose, n, level, one_tail),
+        "independent": independent(),
         "win-as-share": with_share(win),
         "fair-share": with_share(0.5),
         "normal": power(win, lose, n, level, approximate),

@@ -74,16 +74,20 @@ def _(first, second):
       observed split. Include the observed split, which is at least as uneven
     one-sided: your test is one-sided. A split in favour of the other policy is as
       uneven, so add both tails
-    first-better: your function computes the probability that the first policy has at
-      least so many wins. The test is two-sided, so add the other tail
-    not-capped: your p-value is above 1 for an even split, because both tails contain
-      this split. Return at most 1
-    all-starts: your binomial distribution has all n starts. Omit the starts on which
-      both policies succeed or both fail
-    agreement: your function treats each start on which both policies succeed or both
-      fail as half a win. Omit these starts
+    first-better: your function computes the probability that the first policy has
+      at least so many wins. The test is two-sided, so add the other tail
+    not-capped: your p-value is above 1 for an even split, because both tails
+      contain this split. Return at most 1
+    all-starts: your binomial distribution has all n starts. Omit the starts on
+      which both policies succeed or both fail
+    agreement: your function treats each start on which both policies succeed or
+      both fail as half a win. Omit these starts
     one-split: your p-value is twice the probability of the observed split alone.
       Include all splits that are more uneven
+    mid-p: your p-value contains only half of the probability of the observed split
+      (the mid-p-value). Include all of this probability
+    all-successes: your code compares the numbers of all successes of both policies.
+      Omit the starts on which both policies succeed
     chi-squared: your function uses the chi-squared approximation of McNemar's test.
       Sum the binomial probabilities, because the approximation is poor for few
       starts
@@ -95,6 +99,7 @@ def _(first, second):
     win, lose = int(np.sum(first & ~second)), int(np.sum(second & ~first))
     d, n, k = win + lose, len(first), min(win, lose)
     ties = (n - d) // 2
+    both = int(np.sum(first & second))
     chi = abs(win - lose) / sqrt(d) if d else 0.0
     corrected = max(abs(win - lose) - 1, 0) / sqrt(d) if d else 0.0
     a, b = np.mean(first), np.mean(second)
@@ -108,6 +113,8 @@ def _(first, second):
         "all-starts": min(1.0, 2 * upto(k, n)),
         "agreement": min(1.0, 2 * upto(k + ties, n)),
         "one-split": min(1.0, 2 * comb(d, k) / 2**d),
+        "mid-p": min(1.0, 2 * upto(k - 1, d) + comb(d, k) / 2**d),
+        "all-successes": min(1.0, 2 * upto(k + both, d + 2 * both)),
         "chi-squared": erfc(chi / sqrt(2)),
         "continuity": erfc(corrected / sqrt(2)),
         "unpaired": erfc(z / sqrt(2)),
