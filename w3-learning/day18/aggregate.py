@@ -43,6 +43,10 @@ def _(first, second):
       1, because otherwise two episodes have this number
     largest-of-both: your code shifts by the largest number in both data sets plus
       1. Use the largest number in the first set, so that no number is skipped
+    first-shifted: your code shifts the numbers of the first data set. Keep these
+      numbers and shift the numbers of the second set
+    per-row: your code gives each new row an episode of its own. Shift all numbers
+      of the second set by the same number
     counted: your code shifts by the number of episodes in the first data set. Use
       the largest number plus 1, because some numbers can be missing
     counted-rows: your code shifts by the number of rows in the first data set. Use
@@ -68,6 +72,8 @@ def _(first, second):
     every = np.append(of, new)
     return {
         **{slug: (seen, done, np.append(of, of_2 + s)) for slug, s in shifts.items()},
+        "first-shifted": (seen, done, np.append(of + of_2.max() + 1, of_2)),
+        "per-row": (seen, done, np.append(of, of.max() + 1 + np.arange(len(of_2)))),
         "new-only": (second[0], second[1], new),
         "second-first": (
             np.vstack([second[0], first[0]]),

@@ -38,6 +38,8 @@ def _(p, n, k):
       best of k tests, which is larger
     any-success: your result is the probability of at least one success in k trials.
       Return the expected largest of k numbers of successes, divided by n
+    all-succeed: your result is the probability that one of k policies succeeds on
+      all n starts. Return the expected largest number of successes, divided by n
     worst: your result is the expected rate of the worst policy. The best policy has
       at most s successes if all k policies have at most s
     """
@@ -46,6 +48,7 @@ def _(p, n, k):
     return {
         "mean": p,
         "any-success": 1 - (1 - p) ** k,
+        "all-succeed": 1 - (1 - p**n) ** k,
         "worst": np.sum((1 - below) ** k) / n,
     }
 

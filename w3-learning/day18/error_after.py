@@ -43,6 +43,8 @@ def _(a, step, T):
       of the T steps adds an error, so return a sum
     one-error 2: your function lets a single error grow by the factor a per step.
       Each of the T steps adds an error, so return a sum
+    summed-errors: your function adds the errors of all T steps. Return the error
+      after the last step
     continuous: your code uses exp((a - 1) T), which is a limit for small steps. The
       recursion multiplies by a in each step, so use a^T
     step-multiplied: your code also multiplies the new error by a. Multiply only the
@@ -56,6 +58,9 @@ def _(a, step, T):
             "limit": step / (1 - a),
             "one-error": step * a**T,
             "one-error 2": step * a ** (T - 1.0),
+            "summed-errors": sum(
+                step * np.sum(a ** np.arange(t)) for t in range(T + 1)
+            ),
             "continuous": step * np.expm1((a - 1) * T) / (a - 1)
             if a != 1
             else step * T,

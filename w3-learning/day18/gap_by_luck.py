@@ -73,7 +73,7 @@ def _(p, n, gap):
 @row.right  # The distribution of the difference, by convolution.
 def _(p, n, gap):
     one = pmf(n, p)
-    difference = np.convolve(one, one[::-1])  # of -n, ..., n
+    difference = np.convolve(one, one[::-1])  # the probabilities of -n to n
     return difference[np.abs(np.arange(-n, n + 1)) >= gap].sum()
 
 
