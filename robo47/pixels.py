@@ -191,7 +191,8 @@ def centroid_error(spacing: ArrayLike, sigma: ArrayLike) -> Array:
     spacing = checks.positive(spacing, "spacing")
     sigma = checks.positive(sigma, "sigma")
     decay = np.exp(-2.0 * (np.pi * sigma / spacing) ** 2)
-    return 4.0 * np.pi * sigma**2 / spacing * decay
+    error: Array = 4.0 * np.pi * sigma**2 / spacing * decay
+    return error
 
 
 def quarter_turn(images: ArrayLike, action: ArrayLike, k: int) -> tuple[Array, Array]:
