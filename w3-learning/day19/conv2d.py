@@ -90,4 +90,4 @@ def _(image, kernel, stride):
 def _(rng):
     for size in (1e-3, 1e3):
         yield size * rng.numbers(-1, 1, 9, 8), rng.numbers(-1, 1, 3, 2), 2
-    yield rng.numbers(0, 1, 30, 28), rng.numbers(0, 1, 9, 9), 8
+    yield rng.numbers(0, 1, 30, 28), 0.004 * rng.numbers(0, 1, 9, 9), 8

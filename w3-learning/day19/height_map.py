@@ -84,7 +84,7 @@ def _(centres, radii, xs, ys):
 
 @row.spans
 def _(rng):
-    for size in (0.01, 0.1):
+    for size in (0.002, 0.01, 0.1):
         yield view(rng, 3, 9, 12, size)
     grid = np.linspace(-0.55, 0.55, 12)
     yield np.array([[-0.4, 0.4]]), np.array([0.05]), grid, grid

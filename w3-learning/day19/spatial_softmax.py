@@ -120,6 +120,6 @@ def _(maps, xs, ys, temperature):
 
 @row.spans
 def _(rng):
-    xs, ys = np.array([-0.5, 0.0, 0.5]), np.array([-0.4, 0.4])
+    xs, ys = np.array([-0.1, 0.0, 0.1]), np.array([-0.04, 0.04])
     for heat, size in ((1.0, 700.0), (0.1, 1e-3), (0.1, 9.0)):
         yield size * rng.numbers(-1, 1, 3, 2, 3), xs, ys, heat

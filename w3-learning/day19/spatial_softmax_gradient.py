@@ -78,7 +78,7 @@ def _(maps, xs, ys, temperature, d):
 
 @row.spans
 def _(rng):
-    xs, ys = np.array([-0.5, 0.0, 0.5]), np.array([-0.4, 0.4])
-    for heat, size in ((1.0, 1e-3), (0.1, 9.0)):
+    xs, ys = np.array([-0.1, 0.0, 0.1]), np.array([-0.04, 0.04])
+    for heat, size, slope in ((1.0, 1e-3, 0.01), (0.1, 9.0, 9.0)):
         some = size * rng.numbers(-1, 1, 2, 2, 3)
-        yield some, xs, ys, heat, rng.numbers(-9, 9, 2, 2)
+        yield some, xs, ys, heat, slope * rng.numbers(-1, 1, 2, 2)
