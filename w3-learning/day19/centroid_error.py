@@ -44,6 +44,9 @@ def _(spacing, sigma):
     }
 
 
+row.at_least_0(spacing="a distance", sigma="a width", answer="a size")
+
+
 @row.right  # With the frequency of the pixels.
 def _(spacing, sigma):
     w = 2 * np.pi / spacing

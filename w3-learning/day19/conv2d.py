@@ -57,6 +57,9 @@ def _(image, kernel, stride):
     }
 
 
+row.at_least_0(stride="a number of pixels")
+
+
 @row.right  # A loop over the windows.
 def _(image, kernel, stride):
     p, q = kernel.shape

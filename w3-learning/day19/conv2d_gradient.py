@@ -77,6 +77,9 @@ def _(image, kernel, stride, d):
     }
 
 
+row.at_least_0(stride="a number of pixels")
+
+
 @row.right  # Entry by entry of the kernel, with shifted images.
 def _(image, kernel, stride, d):
     h, w = d.shape

@@ -49,6 +49,9 @@ def _(sigma, half):
     }
 
 
+row.at_least_0(sigma="a width", half="a number of pixels", answer="a weight")
+
+
 @row.right  # A loop over the pixels.
 def _(sigma, half):
     n = 2 * half + 1

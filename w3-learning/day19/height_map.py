@@ -63,6 +63,9 @@ def _(centres, radii, xs, ys):
     }
 
 
+row.at_least_0(radii="a radius", answer="a height above the table")
+
+
 @row.right  # Ray by ray.
 def _(centres, radii, xs, ys):
     image = np.zeros((len(ys), len(xs)))

@@ -52,6 +52,12 @@ def _(images, action, k):
     }
 
 
+row.same(
+    "for _ in range(k % 4): => for _ in range(k % 8):",
+    "four quarter turns change nothing",
+)
+
+
 @row.right  # By np.rot90 and a rotation matrix.
 def _(images, action, k):
     c, s = round(np.cos(k * np.pi / 2)), round(np.sin(k * np.pi / 2))

@@ -98,6 +98,9 @@ def _(maps, xs, ys, temperature):
     }
 
 
+row.at_least_0(temperature="a divisor above 0")
+
+
 @row.right  # Map by map, with meshgrid.
 def _(maps, xs, ys, temperature):
     X, Y = np.meshgrid(xs, ys)

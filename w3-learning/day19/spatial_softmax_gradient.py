@@ -53,6 +53,9 @@ def _(maps, xs, ys, temperature, d):
     }
 
 
+row.at_least_0(temperature="a divisor above 0")
+
+
 @row.right  # Map by map, with the matrix of all derivatives.
 def _(maps, xs, ys, temperature, d):
     X, Y = np.meshgrid(xs, ys)

@@ -442,7 +442,7 @@ def home(policy: Policy, title: str, held) -> np.ndarray:
     came = policy.tested().home()
     n = 5 * round(np.sum(came) / 5)  # it may differ between machines
     _, low, high = success_rate(np.arange(len(came)) < n)
-    print(f"  {title:18} held out {policy.loss(*held):.2f}, home about {n:3} of "
+    print(f"  {title:18} held out {policy.loss(*held):.1g}, home about {n:3} of "
           f"{len(came)}, 95 %: {low:.2f} to {high:.2f}")  # fmt: skip
     return came
 
