@@ -28,18 +28,14 @@ def _(spacing, sigma):
       the unit of the arguments
     amplitude-of-the-sum: your result is the first term of Poisson's sum, 2 exp(...).
       The error of the centroid is sigma^2 times the derivative of the sum
-    sigma-in-the-unit: in your code, sigma is used as if it were in pixels. Divide it by
-      the spacing first
     twice-the-first-frequency: your exponent belongs to the second frequency of
       Poisson's sum. The first one has a period of one pixel
     """
     r = sigma / spacing
     decay = np.exp(-2 * np.pi**2 * r**2)
-    plain = 4 * np.pi * sigma**2 * np.exp(-2 * np.pi**2 * sigma**2)
     return {
         "in-pixels": 4 * np.pi * r**2 * decay,
         "amplitude-of-the-sum": 2 * decay * spacing,
-        "sigma-in-the-unit": plain,
         "twice-the-first-frequency": 4 * np.pi * r**2 * decay**4 * spacing,
     }
 

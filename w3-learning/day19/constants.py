@@ -66,7 +66,7 @@ def policy(demos, seed):
 
 
 @numbers.add(
-    "shift of the puck, camera 10 mm beside", "{:.0f} mm",
+    "shift of the puck, camera off by 10 mm", "{:.0f} mm",
     offset=between(1.9, 2.1, "the image of the puck ends at the same place"),
     demos=same("the shift is the camera's, not the policy's"),
     seed=same("the shift is the camera's, not the policy's"),

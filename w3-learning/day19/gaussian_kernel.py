@@ -30,22 +30,14 @@ def _(sigma, half):
       the entries
     rows-normalised: each row of your kernel has the sum 1. All entries together should
       have the sum 1
-    half-forgotten: your exponent is -d^2 / sigma^2. For the standard deviation sigma it
-      is -d^2 / (2 sigma^2)
-    one-sided: your kernel has its maximum at entry [0, 0]. It should be in the middle,
-      so count the pixels from there
     """
     at = np.arange(-half, half + 1)
     d2 = at**2 + at[:, None] ** 2
     g = np.exp(-d2 / (2 * sigma**2))
-    narrow = np.exp(-d2 / sigma**2)
-    side = np.exp(-((at + half) ** 2) / (2 * sigma**2))
     return {
         "not-normalised": g,
         "by-the-integral": g / (2 * np.pi * sigma**2),
         "rows-normalised": g / g.sum(axis=1, keepdims=True),
-        "half-forgotten": narrow / narrow.sum(),
-        "one-sided": np.outer(side, side) / side.sum() ** 2,
     }
 
 

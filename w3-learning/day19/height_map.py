@@ -35,8 +35,7 @@ row.cases(
 
 @row.wrongs
 def _(centres, radii, xs, ys):
-    """root-forgotten: your heights are r^2 - d^2. Take the square root
-    added: in your code, the heights of several spheres are added. A ray from above
+    """added: in your code, the heights of several spheres are added. A ray from above
       stops at the highest of them
     flat: your spheres are as high at their edge as in the middle. At the distance d
       from the centre, the height is sqrt(r^2 - d^2)
@@ -55,7 +54,6 @@ def _(centres, radii, xs, ys):
     for one, some in zip(square, hit):
         last[some] = np.sqrt(one[some])
     return {
-        "root-forgotten": square.max(axis=0),
         "added": np.sqrt(square).sum(axis=0),
         "flat": (hit * r).max(axis=0),
         "cone": np.maximum(r - np.sqrt(d2), 0).max(axis=0),

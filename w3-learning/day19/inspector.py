@@ -3,7 +3,7 @@
 A point of light is blurred and sampled by a camera of 12 x 12 pixels. The student's
 `gaussian_kernel` and `conv2d` compute the image, and `spatial_softmax` the centroid.
 The panel shows the image with the centroid as a cross; the scene shows where the
-policy believes the puck to be, for a camera that is beside its place.
+policy believes the puck to be, for a camera with an offset.
 """
 
 from typing import NamedTuple
@@ -46,7 +46,7 @@ class Pixels(ui.Declared):
     x = ui.slider("puck: x", -0.3, 0.3, 0.06, "m")
     y = ui.slider("puck: y", -0.3, 0.3, 0.17, "m")
     blur = ui.slider("blur, in pixels", 0.2, 0.8, 0.5)
-    beside = ui.slider("camera: offset along x", -0.05, 0.05, 0.0, "m")
+    offset = ui.slider("camera: offset along x", -0.05, 0.05, 0.0, "m")
     image = ui.panel.image(
         np.zeros((12 * SIDE, 12 * SIDE, 3)), "12 x 12 pixels, with the centroid"
     )
@@ -61,7 +61,7 @@ class Pixels(ui.Declared):
         fine = pixels.pixel_grid(finer=LAB.FINER, margin=half)
         light = np.zeros((len(fine), len(fine)))
         column, row = (
-            int(np.argmin(np.abs(fine - place))) for place in (at.x - at.beside, at.y)
+            int(np.argmin(np.abs(fine - place))) for place in (at.x - at.offset, at.y)
         )
         light[row, column] = 1.0
         kernel = fns.gaussian_kernel(at.blur * LAB.FINER, half)
@@ -70,7 +70,7 @@ class Pixels(ui.Declared):
         point = np.asarray(fns.spatial_softmax(maps, LAB.GRID, LAB.GRID, 1.0))[0]
         error = fns.centroid_error(LAB.CELL, at.blur * LAB.CELL)
         # The bodies are on the fine grid, so the error is the camera's and the blur's.
-        self.true = np.array([fine[column] + at.beside, fine[row]])
+        self.true = np.array([fine[column] + at.offset, fine[row]])
         return Seen(image, point, float(error))
 
     def show(self, yours: Seen, right: Seen) -> None:

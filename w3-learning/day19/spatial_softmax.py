@@ -67,8 +67,6 @@ def _(maps, xs, ys, temperature):
       should have the sum 1
     maps-together: your weights have the sum 1 over all maps together. Each map is a
       channel of its own, so its weights should have the sum 1
-    times-temperature: your maps are multiplied by the temperature. Divide them by it,
-      so that a low temperature selects the largest entry
     argmax: your function returns the position of the largest entry. Its gradient is 0
       almost everywhere, so return the expected position
     x-y-swapped: your result is (y, x). Return x first. The pixel [i, j] is at (xs[j],
@@ -81,9 +79,6 @@ def _(maps, xs, ys, temperature):
     rows = np.exp(z - z.max(axis=2, keepdims=True))
     rows = rows / rows.sum(axis=2, keepdims=True)
     together = np.exp(z - z.max())
-    warm = np.exp(
-        maps * temperature - (maps * temperature).max(axis=(1, 2), keepdims=True)
-    )
     best = maps.reshape(len(maps), -1).argmax(axis=1)
 
     def at(p):
@@ -92,7 +87,6 @@ def _(maps, xs, ys, temperature):
     return {
         "rows-only": at(rows),
         "maps-together": at(together / together.sum()),
-        "times-temperature": at(warm / warm.sum(axis=(1, 2), keepdims=True)),
         "argmax": np.stack([xs[best % len(xs)], ys[best // len(xs)]], axis=1),
         "x-y-swapped": at(p)[:, ::-1],
     }

@@ -34,22 +34,15 @@ def _(maps, xs, ys, temperature, d):
       temperature
     p-1-minus-p: your gradient is p (1 - p) times the position. This is the derivative
       of a weight with respect to its own entry; the other weights change as well
-    x-y-swapped: in your code, the derivative with respect to x is multiplied by y. The
-      first column of d belongs to x
     """
     e = np.exp((maps - maps.max(axis=(1, 2), keepdims=True)) / temperature)
     p = e / e.sum(axis=(1, 2), keepdims=True)
-
-    def off(d):
-        at = d[:, 0, None, None] * xs + d[:, 1, None, None] * ys[:, None]
-        return at, at - (p * at).sum(axis=(1, 2), keepdims=True)
-
-    at, centred = off(d)
+    at = d[:, 0, None, None] * xs + d[:, 1, None, None] * ys[:, None]
+    centred = at - (p * at).sum(axis=(1, 2), keepdims=True)
     return {
         "mean-not-taken-off": p * at / temperature,
         "temperature-forgotten": p * centred,
         "p-1-minus-p": p * (1 - p) * at / temperature,
-        "x-y-swapped": p * off(d[:, ::-1])[1] / temperature,
     }
 
 

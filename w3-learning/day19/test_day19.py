@@ -43,7 +43,7 @@ def printed():
     told = {"images that do not show the pusher, fraction": "0.9",
             "images that do not show the puck, fraction": "0.2",
             "largest error of a centroid, mm": "2",
-            "shift of the puck, camera 10 mm beside, mm": "10"}  # fmt: skip
+            "shift of the puck, camera off by 10 mm, mm": "10"}  # fmt: skip
     fast = {"conv2d": pixels.conv2d, "conv2d_gradient": pixels.conv2d_gradient}
     with patch.multiple(lab, **fast):
         return printed_by(lab, told)
@@ -152,7 +152,7 @@ def test_a_wider_blur_helps_pixels():
     assert trained(blur=1.0)[2] == pytest.approx(60, abs=8)
 
 
-def pinholes(seen, beside=0.0):
+def pinholes(seen, offset=0.0):
     """Return the images of observations without blur."""
     points = seen.reshape(-1, 2, 2)
     dx = points[..., 0, None, None] - lab.GRID

@@ -34,7 +34,7 @@ BLUR = 0.5  # pixels, standard deviation of the camera's blur
 BLURS = (0.3, 0.4, 0.5, 0.6)  # pixels, compared in step 4
 FINER = 8  # points of the fine grid per pixel, before the image is sampled
 PINHOLES = 4000  # images of the camera without blur
-BESIDE = (0.005, 0.01, 0.02)  # m, offsets of the camera along x
+OFFSETS = (0.005, 0.01, 0.02)  # m, offsets of the camera along x
 # The learned kernel.
 SMALL, LARGE = 0.02, 0.05  # m, radii of the two spheres
 SCENES = 200  # height maps for the training, and as many others for the test
@@ -368,12 +368,12 @@ def alias(lab: Lab) -> None:
                        label="|measured / predicted - 1| at half a pixel")  # fmt: skip
 
 
-def camera(seen: np.ndarray, beside: float = 0.0) -> np.ndarray:
+def camera(seen: np.ndarray, offset: float = 0.0) -> np.ndarray:
     """Return the images of observations (n, 4), (n, 2, 12, 12).
 
-    A camera that is `beside` metres off along x sees everything as far to the left.
+    A camera with an `offset` along x, m, sees everything as far to the left.
     """
-    points = seen.reshape(-1, 2, 2) - np.array([beside, 0.0])
+    points = seen.reshape(-1, 2, 2) - np.array([offset, 0.0])
     return pixels.spot_images(points, GRID, GRID, BLUR * CELL)
 
 
@@ -417,12 +417,12 @@ class Policy:
         wanted = cloning.normalise(action, self.actions)
         return cloning.mse(self.predict(images), wanted)[0]
 
-    def tested(self, beside: float = 0.0) -> day15_mujoco.Episodes:
-        """Return the episodes from the starts of the test, with the camera beside."""
+    def tested(self, offset: float = 0.0) -> day15_mujoco.Episodes:
+        """Return the episodes from the starts of the test, with an offset camera."""
         start = day15_mujoco.starts(TESTED, np.random.default_rng(STARTS_SEED))
 
         def act(seen: np.ndarray) -> np.ndarray:
-            return cloning.denormalise(self.predict(camera(seen, beside)), self.actions)
+            return cloning.denormalise(self.predict(camera(seen, offset)), self.actions)
 
         # mujoco.mj_step runs the policy
         return day15_mujoco.run(*day15_mujoco.scene(), start, act)
@@ -460,11 +460,11 @@ def from_pixels(lab: Lab, images, action, held) -> tuple[Policy, np.ndarray]:
     return trained[1][0], trained[0][1]
 
 
-def beside(lab: Lab, policy: Policy) -> None:
-    """Measure where the puck ends if the camera is beside its place."""
-    print("  camera beside   shift of the puck   home")
+def offset_camera(lab: Lab, policy: Policy) -> None:
+    """Measure where the puck ends if the camera has an offset."""
+    print("  camera off by   shift of the puck   home")
     base = ends_of(policy.tested())
-    for offset in BESIDE:
+    for offset in OFFSETS:
         run = policy.tested(offset)
         shift = ends_of(run) - base
         n = 5 * round(np.sum(run.home()) / 5)
@@ -472,7 +472,7 @@ def beside(lab: Lab, policy: Policy) -> None:
             f"{1e3 * offset:13.0f} mm{1e3 * shift:17.0f} mm   about {n:3} of {TESTED}"
         )
         if offset == 0.01:
-            lab.measured("shift of the puck, camera 10 mm beside, mm", 1e3 * shift)
+            lab.measured("shift of the puck, camera off by 10 mm, mm", 1e3 * shift)
             lab.record("beside", 1e3 * (shift - offset), metric="mm_off",
                        label="|shift - 10 mm|")  # fmt: skip
 
@@ -536,7 +536,7 @@ def main() -> int:
     policy, before = from_pixels(lab, images, action, held)
 
     lab.step("6. The camera is not where you think")
-    beside(lab, policy)
+    offset_camera(lab, policy)
 
     lab.step("7. Four demonstrations from one")
     check_turns(lab, rng)
