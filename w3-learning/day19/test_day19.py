@@ -98,6 +98,12 @@ def test_the_second_term_of_poissons_sum_is_what_the_guide_says():
         rest = g.sum() - 1 - 2 * np.exp(-2 * np.pi**2 * sigma**2)
         second = 2 * np.exp(-8 * np.pi**2 * sigma**2)
         assert rest == pytest.approx(second, rel=0.01, abs=1e-12)
+    total = 1 - 2 * np.exp(-8 * np.pi**2 * 0.3**2)
+    paper = 1e3 * lab.centroid_error(0.1, 0.03)
+    words = f"to {total:.4f}, and {paper:.3f} mm / {total:.4f} is {paper / total:.3f}"
+    assert words in SENTENCES
+    off = np.abs(lab.sampled_centroid(0.3, lab.FINER // 4))
+    assert 1e3 * off == pytest.approx(paper / total, abs=1e-3)
 
 
 def test_a_mistake_hides_where_the_guide_says():

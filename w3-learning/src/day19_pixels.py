@@ -90,7 +90,7 @@ def conv2d(image: np.ndarray, kernel: np.ndarray, stride: int) -> np.ndarray:
     20]]
     """
     # region 19.3
-    p, q = kernel.shape
+    p, q = kernel.shape  # rows and columns of the kernel
     rows = (image.shape[0] - p) // stride + 1  # number of windows along y
     columns = (image.shape[1] - q) // stride + 1  # number of windows along x
     out = 0  # the sum so far
@@ -115,7 +115,7 @@ def conv2d_gradient(
     # region 19.4
     of_kernel = np.zeros(kernel.shape)  # the gradient of the kernel, so far
     of_image = np.zeros(image.shape)  # the gradient of the image, so far
-    p, q = kernel.shape
+    p, q = kernel.shape  # rows and columns of the kernel
     for i in range(d.shape[0]):
         for j in range(d.shape[1]):
             window = (  # the rows and columns of this window
