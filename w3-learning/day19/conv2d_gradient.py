@@ -80,16 +80,15 @@ def _(image, kernel, stride, d):
 row.at_least_0(stride="a number of pixels")
 
 
-@row.right  # Entry by entry of the kernel, with shifted images.
+@row.right  # Window by window.
 def _(image, kernel, stride, d):
-    h, w = d.shape
-    of_kernel, of_image = np.zeros(kernel.shape), np.zeros(image.shape)
-    for a in range(kernel.shape[0]):
-        for b in range(kernel.shape[1]):
-            rows = slice(a, a + stride * (h - 1) + 1, stride)
-            columns = slice(b, b + stride * (w - 1) + 1, stride)
-            of_kernel[a, b] = np.sum(d * image[rows, columns])
-            of_image[rows, columns] += d * kernel[a, b]
+    p, q = kernel.shape
+    of_kernel, of_image = np.zeros((p, q)), np.zeros(image.shape)
+    for i in range(d.shape[0]):
+        for j in range(d.shape[1]):
+            y, x = i * stride, j * stride
+            of_kernel += d[i, j] * image[y : y + p, x : x + q]
+            of_image[y : y + p, x : x + q] += d[i, j] * kernel
     return of_kernel, of_image
 
 

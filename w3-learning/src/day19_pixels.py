@@ -115,15 +115,15 @@ def conv2d_gradient(
     # region 19.4
     of_kernel = np.zeros(kernel.shape)  # the gradient of the kernel, so far
     of_image = np.zeros(image.shape)  # the gradient of the image, so far
-    p, q = kernel.shape  # rows and columns of the kernel
-    for i in range(d.shape[0]):
-        for j in range(d.shape[1]):
-            window = (  # the rows and columns of this window
-                slice(i * stride, i * stride + p),
-                slice(j * stride, j * stride + q),
+    rows, columns = d.shape  # numbers of windows along y and x
+    for a in range(kernel.shape[0]):
+        for b in range(kernel.shape[1]):
+            seen = (  # entry [a, b] of all windows
+                slice(a, a + stride * (rows - 1) + 1, stride),
+                slice(b, b + stride * (columns - 1) + 1, stride),
             )
-            of_kernel += d[i, j] * image[window]  # this output times its window
-            of_image[window] += d[i, j] * kernel  # this output times the kernel
+            of_kernel[a, b] = np.sum(d * image[seen])  # outputs times these pixels
+            of_image[seen] += d * kernel[a, b]  # outputs times this entry, added
     return of_kernel, of_image  # both gradients
     # endregion 19.4
 
@@ -437,33 +437,31 @@ def demonstrations():
     return images[known], action[known], (images[~known], action[~known])
 
 
-def home(policy: Policy, title: str, held) -> np.ndarray:
-    """Print how well a policy predicts and pushes; return which pucks came home."""
-    came = policy.tested().home()
+def home(policy: Policy, title: str, held) -> day15_mujoco.Episodes:
+    """Print how well a policy predicts and pushes; return its episodes."""
+    run = policy.tested()
+    came = run.home()
     n = 5 * round(np.sum(came) / 5)  # it may differ between machines
     _, low, high = success_rate(np.arange(len(came)) < n)
     print(f"  {title:18} held out {policy.loss(*held):.1g}, home about {n:3} of "
           f"{len(came)}, 95 %: {low:.2f} to {high:.2f}")  # fmt: skip
-    return came
+    return run
 
 
-def from_pixels(lab: Lab, images, action, held) -> tuple[Policy, np.ndarray]:
-    """Train on pixels and on centroids; return the second policy and which came home.
-
-    The successes are of the first policy.
-    """
-    trained = []
+def from_pixels(lab: Lab, images, action, held):
+    """Train on pixels and on centroids; return the second policy and both runs."""
+    runs = []
     for title, features in (("288 pixels", as_pixels), ("4 centroids", as_centroids)):
         policy = Policy(lab, title, features, images, action)
         print(f"  {title:18} loss {policy.loss(images, action):.3f}")
-        trained.append((policy, home(policy, "", held)))
-    return trained[1][0], trained[0][1]
+        runs.append(home(policy, "", held))
+    return policy, *runs
 
 
-def offset_camera(lab: Lab, policy: Policy) -> None:
+def offset_camera(lab: Lab, policy: Policy, run: day15_mujoco.Episodes) -> None:
     """Measure where the puck ends if the camera has an offset."""
     print("  camera off by   shift of the puck   home")
-    base = ends_of(policy.tested())
+    base = ends_of(run)
     for offset in OFFSETS:
         run = policy.tested(offset)
         shift = ends_of(run) - base
@@ -533,10 +531,10 @@ def main() -> int:
 
     lab.step(f"5. From pixels to the robot: {DEMOS} demonstrations")
     images, action, held = demonstrations()
-    policy, before = from_pixels(lab, images, action, held)
+    policy, before, run = from_pixels(lab, images, action, held)
 
     lab.step("6. The camera is not where you think")
-    offset_camera(lab, policy)
+    offset_camera(lab, policy, run)
 
     lab.step("7. Four demonstrations from one")
     check_turns(lab, rng)
@@ -544,8 +542,8 @@ def main() -> int:
     title = "288 pixels, turned"
     turned = Policy(lab, title, as_pixels, *four)
     print(f"  {title:18} loss {turned.loss(*four):.3f}")
-    after = home(turned, "", held)
-    lab.record("turned", np.sum(after) - np.sum(before), metric="starts", seed=SEED,
+    gain = np.sum(home(turned, "", held).home()) - np.sum(before.home())
+    lab.record("turned", gain, metric="starts", seed=SEED,
                label="pucks with quarter turns minus without")  # fmt: skip
     return lab.finish()
 
