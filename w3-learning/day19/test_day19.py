@@ -155,6 +155,13 @@ def test_more_demonstrations_help():
 def test_a_wider_blur_helps_pixels():
     assert "| pixels, blur 1 | about 60 |" in SENTENCES
     assert trained(blur=1.0)[2] == pytest.approx(60, abs=8)
+    alike = []
+    for blur in (1.0, 0.5):
+        with patch.object(lab, "BLUR", blur):
+            one, two = lab.camera(np.array([[0.0, 0, 0, 0], [0.05, 0, 0, 0]]))[:, 0]
+        alike.append(np.sum(one * two) / np.linalg.norm(one) / np.linalg.norm(two))
+    assert "of 0.94 instead of 0.78" in SENTENCES
+    assert alike == pytest.approx([0.94, 0.78], abs=0.005)
 
 
 def pinholes(seen, offset=0.0):
@@ -285,6 +292,17 @@ def test_a_training_shows_some_mistakes(row, change):
     assert np.mean(losses[-20:]) == pytest.approx(float(words[1]), abs=0.02)
     off = np.median(np.linalg.norm(ends - places[:, 0], axis=1))
     assert 1e3 * off == pytest.approx(int(words[2]), abs=3)
+
+
+@pytest.mark.kit
+def test_without_its_edge_the_learned_kernel_finds_the_large_sphere():
+    kernel, _ = lab.learned_kernel(SILENT)
+    kernel[[0, -1]] = kernel[:, [0, -1]] = 0.0
+    images, places = lab.scenes(np.random.default_rng(lab.STARTS_SEED))
+    ends = np.array([lab.found(image, kernel)[1][0] for image in images])
+    off = 1e3 * np.median(np.linalg.norm(ends - places[:, 1], axis=1))
+    assert off == pytest.approx(10, abs=1.5)
+    assert "with a median error of 10 mm" in SENTENCES
 
 
 @pytest.mark.kit

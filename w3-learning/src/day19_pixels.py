@@ -533,7 +533,7 @@ def main() -> int:
     images, action, held = demonstrations()
     policy, before, run = from_pixels(lab, images, action, held)
 
-    lab.step("6. The camera is not where you think")
+    lab.step("6. The camera has moved")
     offset_camera(lab, policy, run)
 
     lab.step("7. Four demonstrations from one")
