@@ -70,8 +70,8 @@ proof: .venv/.ready-view $(ROBOT) ## write a results page: your numbers, the cap
 fresh: .venv/.ready-core $(ROBOT) ## test whether a clone of your last commit gives your numbers
 	@$(PY) scripts/fresh.py $(ON_WEEK) $(ARGS) $(NOT_YET)
 
-view: .venv/.ready-$(VIEW) $(ROBOT) ##6 see the arm, moved by your code; ARGS=--web, --screenshot
-	@$(PY) scripts/view_panda.py $(DAY) $(ARGS)
+view: .venv/.ready-$(VIEW) $(ROBOT) ##6 see the arm, moved by your code; TASK=1.4: a call that fails
+	@$(PY) scripts/view_panda.py $(DAY) $(if $(TASK),--task $(TASK)) $(ARGS)
 
 start: .venv/.ready-core ##0 write your copy of a day's lab; RESET=1.4 empties one task
 	@$(PY) scripts/start_day.py $(DAY) $(if $(RESET),--reset $(RESET)) $(ARGS)

@@ -23,6 +23,7 @@ import hypothesis
 import mujoco
 import numpy as np
 import pytest
+from restored import Restored
 
 from labkit import log
 from labkit.base.exchange import Exchange, Question, Reply
@@ -248,6 +249,18 @@ def copy_kit(copy: Path) -> Path:
     return copy
 
 
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory: pytest.TempPathFactory) -> Restored:
+    """Return a copy of the kit for the tests of a file; `clone` puts it back."""
+    return Restored(copy_kit(tmp_path_factory.mktemp("kit") / "clone"))
+
+
+@pytest.fixture
+def clone(copy: Restored) -> Path:
+    """Return the copy of the kit as it was at first."""
+    return copy.put_back()
+
+
 def keep_first_day(clone: Path) -> Path:
     """Return a copy of the kit, now with its first day alone: it is run in seconds."""
     first, *others = weeks(clone)
@@ -257,12 +270,6 @@ def keep_first_day(clone: Path) -> Path:
         shutil.rmtree(first.folder / f"day{number}")
     write_week(first.folder, first.days[0])
     return clone
-
-
-@pytest.fixture
-def clone(tmp_path):
-    """Return a copy of the kit that a test may work in."""
-    return copy_kit(tmp_path / "clone")
 
 
 @pytest.fixture

@@ -60,6 +60,9 @@ function label(text, colour, height) {
   return made;
 }
 
+const NO_3D = "This browser draws no 3D (WebGL is off), so the arm is not shown. All numbers"
+  + " are still computed.";
+
 export class Stage {
   /** What draws into an element; without WebGL nothing does, and `draws` is false. */
   constructor(element, { letters = 0.045, zoom = true } = {}) {
@@ -96,7 +99,7 @@ export class Stage {
       return made;
     } catch {
       this.element.classList.add("none");
-      this.element.textContent = "This browser draws no 3D (WebGL). The numbers are right.";
+      this.element.textContent = NO_3D;
       return null;
     }
   }

@@ -15,7 +15,7 @@ from conftest import Answers
 from labkit.base.exchange import Reply
 from labkit.inspector import page as page_module
 from labkit.inspector.arm import Arm
-from labkit.inspector.common_tabs import Standing
+from labkit.inspector.standing import Standing
 from labkit.lesson.day import find_day
 from robo47 import panda
 

@@ -52,7 +52,7 @@ class TestAnIndex:
             (
                 lambda x, at: int(np.argmin(np.abs(x - at))) + 1,
                 "counted-from-one",
-                "Your index is counted from 1. It should be counted from 0.",
+                "Your index is counted from 1 instead of 0.",
             ),
             (
                 lambda x, at: float(np.argmin(np.abs(x - at))),
@@ -60,7 +60,11 @@ class TestAnIndex:
                 "0; expected an index, a whole number. Only a whole number can index "
                 "an array, so convert the result with int(...).",
             ),
-            (lambda x, at: x, "shape", "returns shape (3,); expected an index"),
+            (
+                lambda x, at: x,
+                "shape",
+                "returns an array of shape (3,); expected an index",
+            ),
             (lambda x, at: "first", "not-an-array", "returns 'first'; expected"),
             (
                 lambda x, at: int(np.argmin(np.abs(x - at))) - len(x),

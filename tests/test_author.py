@@ -1,5 +1,6 @@
 """A new day's skeleton passes; what is wrong with a day is told with its line."""
 
+import re
 import shutil
 import subprocess
 
@@ -46,13 +47,53 @@ def test_a_new_day_is_all_as_it_must_be(kit):
     assert f"**[Day 46: Trial]({GUIDE})**" in (kit / "README.md").read_text()
 
 
+def test_a_new_week_begins_with_a_retrospective_of_its_own(kit):
+    """It is no copy of another week's, which asks about the capstone of that week."""
+    template = ROOT / "labkit/commands/templates/RETRO.md.txt"
+    number = re.search(r"\d+", WEEK)[0]
+    own = (kit / WEEK / "docs" / f"RETRO_w{number}.md").read_text("utf-8")
+    assert own == template.read_text("utf-8").replace("$weeknumber", number)
+    assert own.startswith(f"# Week {number}: ")
+    assert "<!-- numbers -->" in own
+
+
+def test_a_task_without_its_files_is_told_which_files_are_missing(kit):
+    manifest = kit / WEEK / "day46" / "day.toml"
+    task = manifest.read_text("utf-8").partition("[[tasks]]")[2]
+    more = task.replace("46.1", "46.2").replace("reach", "stretch")
+    manifest.write_text(manifest.read_text("utf-8") + f"\n[[tasks]]{more}", "utf-8")
+    done = run_copy(kit, AUTHOR, "46", "--fast")
+    told = " ".join(done.stdout.split())
+    assert (done.returncode, done.stderr) == (1, "")
+    assert f"{WEEK}/day46/stretch.py is missing: the questions for stretch" in told
+    assert "46.2 in stretch" not in told  # there is no function to mark yet
+    assert "make author TASK=46.2" in told
+    (kit / WEEK / "day46" / "stretch.py").write_text(
+        (kit / WEEK / "day46" / "reach.py")
+        .read_text("utf-8")
+        .replace(", truth=ends", "")
+    )
+    change(
+        kit / LAB, "def main()", "def stretch(q1, q2, a, b):\n    pass\n\n\ndef main()"
+    )
+    done = run_copy(kit, AUTHOR, "--task", "46.2")
+    assert done.returncode == 2
+    assert done.stdout.splitlines() == [
+        f"Task 46.2: stretch, in {WEEK}/day46/",
+    ]
+    assert "the day's library has no stretch" in done.stderr
+
+
 def test_what_the_skeleton_says_for_the_author_is_told_and_a_worksheet_is_written(kit):
     (kit / WEEK / "docs" / "day46.md").unlink()
     done = run_copy(kit, "scripts/author_day.py", "46", "--fast")
     assert done.returncode == 0, done.stdout
     says = " ".join(done.stdout.split())
     assert "wrote w9-trial/docs/day46.md, yours to fill in" in says
-    assert 'docs/day46.md has the skeleton\'s "What do you want to ask?" still' in says
+    assert (
+        'docs/day46.md still has the words of the skeleton: "What do you want to ask?"'
+        in says
+    )
 
 
 def test_its_starter_is_to_do_and_its_lab_passes(kit):
@@ -133,7 +174,7 @@ def test_what_does_not_fit_is_told_at_once_each_with_its_file(kit):
     done = run_copy(kit, AUTHOR, "46")
     told = " ".join(done.stdout.split())
     assert (done.returncode, done.stderr) == (1, "")
-    assert f"{LAB}: no region 46.1 in reach" in told
+    assert f"{LAB}: no function reach, which {WEEK}/day46/day.toml asks" in told
     assert f"{GUIDE} has no heading" in told
     assert f"{sheet}: no section 'joint angle or absolute angle'" in told
     assert "git checkout" not in told

@@ -117,10 +117,21 @@ def test_a_wrong_shape_a_tab_with_the_lab_and_an_old_picture_are_told(kit):
     assert "inspector.py does not load: ModuleNotFoundError" in says
 
 
+def test_a_sentence_that_begins_with_a_capital_is_told(kit):
+    """It may follow the number of a line; the name of a matrix is no word."""
+    own = kit / WEEK / "day46" / "reach.py"
+    change(own, "the second link is rotated", "The second link is rotated")
+    change(own, "the sine and the cosine", "R and the cosine")
+    says = told(kit)
+    assert 'capital, but it may follow "In line 12, ": The second link' in says
+    assert says.count("begins with a capital") == 1
+
+
 @pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day{day.number}")
 def test_the_kits_own_days_have_none_of_these(day):
     assert [*hints.faults_of(day)] == []
-    assert [f for row in rows_of(day).values() for f in docstring.faults_of(row)] == []
+    for row in rows_of(day).values():
+        assert [*docstring.faults_of(row), *docstring.capitals(row)] == []
 
 
 @pytest.mark.parametrize(
@@ -148,6 +159,8 @@ def test_a_shape_is_read_behind_its_argument_alone():
     text = "Return Y, (n, 7), of X (n, d). q, (7,), at (1, 2) is W (2, 2)."
     found = docstring._documented_shapes(text, ["X", "q", "W"])
     assert found == [("X", "n, d"), ("q", "7,"), ("W", "2, 2"), ("", "n, 7")]
+    found = docstring._documented_shapes("Return A^-1 e, (n,). e is (m,).", ["A", "e"])
+    assert found == [("e", "m,"), ("", "n,")]
 
 
 def test_a_row_of_the_skeleton_has_few_lines_that_are_no_content():

@@ -6,27 +6,15 @@ import sys
 import time
 
 import pytest
-from restored import Restored
 from test_deliverables import PICTURE, git, png, worksheet
 
-from conftest import copy_kit, environment_of
+from conftest import environment_of
 from labkit import log as metrics
 from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 
 CHECK, START, HINT = "scripts/check_day.py", "scripts/start_day.py", "scripts/hint.py"
-
-
-@pytest.fixture(scope="module")
-def copy(tmp_path_factory):
-    """Return a copy of the kit that is put back after each test."""
-    return Restored(copy_kit(tmp_path_factory.mktemp("kit") / "clone"))
-
-
-@pytest.fixture
-def clone(copy):
-    return copy.put_back()
 
 
 @pytest.fixture

@@ -4,9 +4,11 @@ The functions are wrong in a part of the calls alone, or are those of a day's ca
 whose names are not looked for here.
 """
 
+import contextlib
 import functools
 import itertools
 import re
+import signal
 
 import numpy as np
 import pytest
@@ -25,14 +27,35 @@ from labkit.sandbox.inside import wire
 
 FRESH = 100
 SEED = 90210  # of fresh inputs: no check asks these
+SECONDS = 2.0  # of the processor, for one call
 
 pytestmark = pytest.mark.kit
+
+
+@contextlib.contextmanager
+def ended_late():
+    """End a call that takes too long, as the sandbox does: a wrong loop may be endless.
+
+    Raises:
+        TimeoutError: it has.
+    """
+
+    def end(*_):
+        raise TimeoutError
+
+    before = signal.signal(signal.SIGVTALRM, end)
+    signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)
 
 
 def reply(function, args):
     """Return the reply of a function, whose answer travels as a student's does."""
     try:
-        with np.errstate(all="ignore"):
+        with ended_late(), np.errstate(all="ignore"):
             value = function(*map(own, map(as_plain, args)))
         value = wire.unpack_value(wire.pack_value(value))
     except Exception as error:
@@ -182,6 +205,16 @@ def false_ones(row, some):
 DAYS = days()
 QUICK = {1: "quat_to_R", 5: "error_response", 9: "low_pass", 11: "box_sdf",
          12: "steer"}  # fmt: skip
+
+
+def test_a_call_without_an_end_is_ended(monkeypatch):
+    monkeypatch.setitem(globals(), "SECONDS", 0.05)
+
+    def endless():
+        while True:
+            pass
+
+    assert reply(endless, ()).kind == "TimeoutError"
 
 
 @pytest.mark.parametrize("number", QUICK)

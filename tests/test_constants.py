@@ -3,6 +3,7 @@
 import re
 import shutil
 from functools import partial
+from types import SimpleNamespace
 
 import pytest
 
@@ -86,8 +87,38 @@ def test_a_constant_that_the_function_takes_and_nobody_explains_is_refused():
         numbers.add("it", "{}", wait=same("so"))(lambda wait=1.0, noise=2.0: 1.0)
     with pytest.raises(Robo47Error, match="no words of reach"):
         numbers.add("it", "{}", reach=same("so"))(lambda reach=1.0: 1.0)
-    with pytest.raises(Robo47Error, match="takes no noise"):
+    with pytest.raises(Robo47Error, match="nothing of it is called noise"):
         numbers.add("it", "{}", wait=same(""), noise=same(""))(lambda wait=1.0: 1.0)
+
+
+def test_a_constant_in_capitals_is_changed_in_the_modules_that_share_it():
+    """A tuple is multiplied; an equal name of another module is another constant."""
+    lab = SimpleNamespace(KP=100.0, ELBOW=(10.0, 4.0), DT=0.5)
+    mujoco_part = SimpleNamespace(KP=lab.KP, DT=0.25)
+    numbers = Numbers(lab, mujoco_part, KP="KP: {}", ELBOW="ELBOW: × {}", DT="DT: {}")
+    numbers.add("sum", "{:.2f}",
+        KP=times(2.0, "both terms double", within=0.01), ELBOW=same("it is not used"),
+        DT=same("the lab's is not used"),
+    )(lambda: lab.KP + mujoco_part.KP + mujoco_part.DT)  # fmt: skip
+    numbers.add("elbow", "{:.0f}", ELBOW=times(2.0, "so"))(lambda: sum(lab.ELBOW))
+    assert list(faults(numbers.measured())) == []
+    assert "| elbow: **14** | ELBOW: × 1 → 2 | 28, × 2 |" in table(numbers.measured())
+    assert (lab.KP, lab.ELBOW, lab.DT) == (100.0, (10.0, 4.0), 0.5)
+
+
+def test_a_cached_helper_is_computed_once_for_each_change():
+    lab, calls = SimpleNamespace(KP=100.0, KD=10.0), []
+    numbers = Numbers(lab, KP="KP: {}", KD="KD: {}")
+
+    @numbers.cached
+    def run(factor):
+        calls.append(lab.KP)
+        return factor * lab.KP
+
+    for name in ("first", "second"):
+        numbers.add(name, "{}", KP=times(2.0, "so"), KD=same("so"))(lambda: run(3.0))
+    assert list(faults(numbers.measured())) == []
+    assert calls == [100.0, 200.0, 100.0]
 
 
 def test_what_nothing_moves_and_what_is_rounding_are_said_so():

@@ -9,9 +9,7 @@ from types import SimpleNamespace
 
 import make_hunters
 import pytest
-from restored import Restored
 
-from conftest import copy_kit
 from labkit import log as metrics
 from labkit.base.deadline import Deadline
 from labkit.commands import hunt
@@ -30,17 +28,6 @@ from labkit.report.series import Report
 from robo47.errors import FaultError, Robo47Error
 
 HUNT = "scripts/hunt_bug.py"
-
-
-@pytest.fixture(scope="module")
-def copy(tmp_path_factory):
-    """Return a copy of the kit that is put back after each test."""
-    return Restored(copy_kit(tmp_path_factory.mktemp("kit") / "clone"))
-
-
-@pytest.fixture
-def clone(copy):
-    return copy.put_back()
 
 
 def test_a_seed_draws_the_same_mistake_and_others_other_ones():

@@ -15,12 +15,13 @@ from viser import _messages
 from labkit.inspector import serve
 from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
-from labkit.inspector.common_tabs import Joints, Standing
+from labkit.inspector.common_tabs import Joints
 from labkit.inspector.ghost import Ghost, compare, nothing
 from labkit.inspector.guard import LocalServer
 from labkit.inspector.robot import Robot
 from labkit.inspector.serve import on_loop
 from labkit.inspector.shapes import Shape
+from labkit.inspector.standing import Standing
 from labkit.inspector.tab import DayTabs, Tab, day_tabs
 from labkit.lesson.day import Day, day_numbers, find_day
 from robo47 import panda
@@ -588,4 +589,7 @@ def test_a_logarithmic_axis_has_one_tick_a_decade_and_reaches_over_the_curves():
     plot.show([0.0, 1.0], [[1.0, 1e12]])  # not every decade has a label any more
     assert len([label for label in plot.handle.axes[1]["values"] if label]) <= 9
     plain = Plot(gui, ("error",), "t (s)", "", 150, 0.0)
+    for one in (plot, plain):  # the axis has its name, the legend no empty values
+        assert one.handle.axes[0]["label"] == "t (s)"
+        assert one.handle.legend == {"live": False}
     assert "y" not in plain.handle.scales

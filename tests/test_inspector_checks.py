@@ -6,7 +6,7 @@ pytest.importorskip("viser", reason="the extra view")
 
 from labkit.check.tasks import TaskResult
 from labkit.inspector import words
-from labkit.inspector.common_tabs import standing
+from labkit.inspector.standing import standing
 from labkit.judge.mistake import Verdict
 from labkit.lesson.day import find_day
 

@@ -117,6 +117,16 @@ CARD = """() => {
     hidden: Math.max(0, Math.min(across, down)),
     shadow: Number(getComputedStyle(card, "::after").opacity) };
 }"""
+# How much of the legend is below the panel, and how much outside the window.
+COVERED = """() => {
+  const box = document.querySelector(".r47-stage").getBoundingClientRect();
+  const panel = document.querySelector(".mantine-Paper-root:has([data-r47-state])");
+  const tabs = panel.getBoundingClientRect();
+  const across = Math.min(box.right, tabs.right) - Math.max(box.left, tabs.left);
+  const down = Math.min(box.bottom, tabs.bottom) - Math.max(box.top, tabs.top);
+  return Math.max(0, Math.min(across, down)) + Math.max(0, -box.left, -box.top,
+    box.right - innerWidth, box.bottom - innerHeight) + (box.height ? 0 : 1);
+}"""
 # The sentence of the card becomes so long that no window holds it.
 LONG = """() => { for (const card of document.querySelectorAll("[data-line=standing]"))
   card.lastElementChild.append(" and so on".repeat(500)); }"""
@@ -672,8 +682,10 @@ class TestTwoBrowsers:
         # All sliders are on the first screen, before the matrices.
         page.until(lambda: page.slider(7).bounding_box()["y"] < 830)
         page.check_contrast()
+        page.until(lambda: page.tab.evaluate(COVERED) == 0)
         page.tab.set_viewport_size({"width": 1280, "height": 800})
         page.until(lambda: 0 < size()[0] < 390)
+        page.until(lambda: page.tab.evaluate(COVERED) == 0)
 
     def test_every_button_has_a_name(self, page):
         page.until(lambda: page.tab.evaluate(NAMELESS) == [])

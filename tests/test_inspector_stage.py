@@ -13,9 +13,10 @@ pytest.importorskip("viser", reason="the extra view")
 from tabs_on_paper import Paper
 
 from conftest import ROOT, paper
+from labkit.inspector.arm import Arm
 from labkit.inspector.canvas import Canvas
 from labkit.inspector.draw import Sketch
-from labkit.inspector.scene import FOV, narrow
+from labkit.inspector.scene import FOV, ArmScene, narrow
 from labkit.inspector.shapes import LARGER, PACKED, Shape, larger
 from robo47 import panda
 
@@ -93,6 +94,19 @@ def test_a_ghost_is_larger_than_the_arm_and_a_second_one_than_the_first():
     made = [given[0][1] for name, given in log if name == "scene.add_mesh_simple"]
     heights = [float(vertices[0, 2]) for vertices in made]
     np.testing.assert_allclose(heights, [LARGER, 2 * LARGER], atol=1 / PACKED)
+
+
+def test_a_tab_without_the_arm_has_no_ghost_of_it_either():
+    server = MagicMock()
+    server.on_client_connect = lambda call: call
+    arm = Arm(panda.load("panda_nohand"), panda.END_FRAME["panda_nohand"])
+    scene = ArmScene(server, arm)
+    scene.ghost.bodies["link1"] = ghost = MagicMock()
+    scene.hide()
+    scene.show_ghost({"link1": np.eye(4), "ee": np.eye(4)}, "ee")
+    assert (ghost.visible, scene.gap.visible, scene.yours.visible) == (False,) * 3
+    scene.hide(False)  # another tab has it again, without a new answer
+    assert (ghost.visible, scene.gap.visible, scene.yours.visible) == (True,) * 3
 
 
 def test_a_phone_sees_the_same_in_the_upper_half():

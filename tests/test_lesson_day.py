@@ -43,7 +43,10 @@ def written(week, number, text):
     [
         ((HINT, '" "'), r"tasks 1\.1: hints holds ' '"),
         (('title = "A rotation about z"', 'title = ""'), r"tasks 1\.2: title is ''"),
-        (('functions = ["Rz"]', "functions = []"), r"1\.2: functions has 0 entries"),
+        (
+            ('functions = ["Rz"]', "functions = []"),
+            r"1\.2: functions has too few entries \(0\)",
+        ),
         (('id = "1.2"', 'id = "1.1"'), r"two tasks have the id 1\.1"),
         (('id = "1.2"', 'id = "2.2"'), r"id 2\.2 is not one of day 1"),
         (('functions = ["Rz"]', 'functions = ["make_T"]'), "another task has make_T"),

@@ -103,7 +103,9 @@ def test_a_zero_prints_without_a_sign(log, capsys):
 def test_an_unknown_number_and_a_script_that_is_no_lab_are_refused(
     log,
 ):
-    with pytest.raises(Robo47Error, match=r"has 0 metrics fk; it has fk_identity"):
+    with pytest.raises(
+        Robo47Error, match=r"no \[\[metrics\]\] called fk; it has fk_id"
+    ):
         lab_with().record("fk", 0.0)
     with pytest.raises(Robo47Error, match=r"helpers\.py is no lab"):
         Lab("helpers.py", "")

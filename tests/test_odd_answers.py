@@ -59,7 +59,7 @@ class TestAMistakeThatStopsOrReshapes:
     def test_is_named_where_it_changes_the_shape(self):
         verdict = told(self.row(), lambda X, W: (X @ W)[:-1])
         assert verdict.mistake == "by-one-row"
-        assert "Your function returns a wrong shape in" in verdict.message
+        assert "Your function returns an array of the wrong shape in" in verdict.message
         assert "with this mistake gives the same output as" in verdict.message
 
     def test_may_be_known_to_its_row_where_no_name_gives_it(self):

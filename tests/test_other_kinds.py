@@ -92,7 +92,7 @@ class TestSizes:
         assert verdict(lambda x: -np.cumsum(x)).mistake == "all-signs"
         short = verdict(lambda x: np.cumsum(x)[:-1])
         assert short.mistake == "shape"
-        assert "returns a wrong shape in 4 of 4 calls." in short.message
+        assert "returns an array of the wrong shape in 4 of 4 calls." in short.message
         assert verdict(lambda x: np.cumsum(x)[None]).mistake == "shape"
 
     def test_a_mistake_is_made_again_in_every_size(self):
@@ -178,7 +178,7 @@ ONE_EACH = np.arange(8) == np.arange(6)[:, None]
         (MASKS, "", ""),
         (MASKS.astype(int), "", ""),
         (~MASKS, "inverted", "our code swaps True and False"),
-        (np.ones_like(MASKS), "ignores-its-input", "does not depend on the input"),
+        (np.ones_like(MASKS), "ignores-its-input", "the same for every input"),
         (MASKS | ONE_EACH, "too-often-true", "returned True in 3 cases where"),
         (MASKS & ~ONE_EACH, "too-seldom-true", "Your function returned False"),
         (
@@ -281,3 +281,21 @@ def test_a_mask_is_inverted_only_where_it_is_so_at_fresh_inputs_too():
     main = [exchange.question.args[0] for exchange in round_of(ask).main]
     assert verdict(lambda x: x <= 0.0) == "inverted"
     assert verdict(lambda x: (x > 0.0) != (x in main)) != "inverted"
+
+
+@pytest.mark.parametrize(
+    ("names", "says"),
+    [
+        (("kp", "kd", "ki"), "except the entry for kd. "),
+        (("the mass", "the height", "the width"), "except the height. "),
+    ],
+)
+def test_an_entry_is_named(names, says):
+    right = np.arange(1.0, 13.0).reshape(4, 3) ** 2
+    verdict = told(Vector((3,), names=names), right, right + [0.0, 1.0, 0.0] * right)
+    assert says in verdict.message
+
+
+def test_a_number_for_a_vector_is_called_a_number():
+    verdict = told(Vector((3,)), np.ones((4, 3)), np.ones(4))
+    assert "returns a single number; expected a vector of 3" in verdict.message

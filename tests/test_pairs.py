@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from test_claims import right, told
 
-from labkit.judge import Count, Mask, Pose, Scalar, Vector
+from labkit.judge import Count, Mask, Pose, Scalar, Vector, pairs
 from labkit.judge.answers import as_clause, say_number
 from labkit.judge.matcher import Matcher
 from labkit.judge.mistake import Mistake
@@ -279,7 +279,7 @@ def test_a_name_that_the_row_finds_is_not_followed_by_a_slip():
         return x
 
     says = told(8, "8.6", truncated_svd_fit=truncated_svd_fit)
-    assert says.startswith("Too few singular values are counted in 14 of 14 calls")
+    assert says.startswith("Your code counts too few singular values in 14 of 14")
     assert "gives the same output" not in says
 
 
@@ -298,7 +298,7 @@ def test_a_result_in_another_unit_is_not_explained_by_an_argument():
 
     says = told(7, "7.9", max_cube_mass=max_cube_mass)
     assert says.startswith("The result is 1000 times the correct value")
-    assert "Is it in another unit? The function should return kg." in says
+    assert "Is your result in another unit? The function should return kg." in says
     assert "grip" not in says.partition("max_cube_mass(")[0]
 
 
@@ -333,3 +333,8 @@ def test_a_message_of_one_of_several_functions_goes_on_in_its_sentence():
     assert as_clause("A is transposed.") == "A is transposed."
     assert as_clause("R is transposed.") == "R is transposed."
     assert as_clause("NumPy stops.") == "NumPy stops."
+
+
+def test_two_mistakes_leave_no_part_correct():
+    said = "your rotation is correct, but your translation is -t"
+    assert pairs._BUT.sub("", said) == "your translation is -t"

@@ -335,7 +335,9 @@ def test_a_whole_picture_travels_and_what_stays_here_is_called_the_kits(sandbox)
     # What passes is theirs on every face, and the page says openly what ran instead.
     assert found.counted == counted(uses, {10: {"back_project"}, 12: {"shortcut"}})
     assert str(found.counted) == "2 of 2"
-    assert "Theirs, but not run here: shortcut." in Seen(page._stayed(found)).words
+    assert (
+        "By the student, but not run here: shortcut." in Seen(page._stayed(found)).words
+    )
     assert page._stayed(found._replace(stayed=frozenset())) == ""
     kits = page._by(uses, found).count("<td class=wide>–</td>")
     assert kits == 2  # none of the two is called the kit's
@@ -357,7 +359,7 @@ def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path, capsys):
     assert "Ada -x: week 1" in text
     words = Seen(text).words
     assert "a teacher's kit" in words
-    assert "None of the functions that move the arm is theirs yet." in words
+    assert "None of the functions that move the arm is the student's yet." in words
     assert not (tmp_path / "proof" / "bob.html").exists()
 
 

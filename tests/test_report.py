@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from conftest import ROOT, need
+from labkit.base import html as pages
 from labkit.check.memory import Entry
 from labkit.lesson.day import all_days, find_day
 from labkit.lesson.metric import Metric
@@ -307,7 +308,7 @@ def test_a_day_has_a_square_a_task_and_a_dot_an_attempt(tmp_path):
     )
     assert squares == ["pass", "fail", *[""] * (len(ids) - 2)]
     assert attempts == ["fail", "pass"]
-    assert "<td>3</td>" in table
+    assert "<td class=hints>3</td>" in table
     assert "<script" not in table
 
 
@@ -382,6 +383,7 @@ def dom(chromium: str, folder: Path, text: str) -> str:
     return done.stdout
 
 
+PARTS = ".card, .tile, h3, dl, svg"  # what stays inside of the window
 MEASURE = """<body><iframe id=f style="width:{width}px;height:900px" srcdoc="{page}">
 </iframe><script>onload = () => {{
   const d = document.getElementById('f').contentDocument;
@@ -393,9 +395,12 @@ MEASURE = """<body><iframe id=f style="width:{width}px;height:900px" srcdoc="{pa
 }}</script>"""
 
 
-def measured(chromium: str, folder: Path, text: str, width: int) -> list[str]:
+def measured(
+    chromium: str, folder: Path, text: str, width: int, parts: str = PARTS
+) -> list[str]:
     """Return a page's title and what MEASURE counts in it, in a window of a width."""
-    harness = MEASURE.format(width=width, page=html.escape(text))
+    harness = MEASURE.replace(PARTS, parts)
+    harness = harness.format(width=width, page=html.escape(text))
     found = re.search(r"<title>(.*?)</title>", dom(chromium, folder, harness))
     assert found is not None
     return found[1].rsplit(maxsplit=5)
@@ -415,3 +420,24 @@ def test_the_page_fits_and_runs_nothing_in_a_real_browser(
     assert int(scroll_width) <= width
     assert (too_wide, made) == ("0", "0")
     assert (dots, note_cells) == ("6", "6")
+
+
+@pytest.mark.browser
+def test_the_days_need_no_scrolling_on_a_phone(chromium, tmp_path):
+    day = dataclasses.replace(find_day(9), folder=tmp_path)
+    (tmp_path / "work").mkdir()
+    day.work.write_text("")
+    states = {task.id: "passed" for task in day.tasks}
+    tried = [Entry(task.id, "passed", "") for task in day.tasks] * 6
+    table = overview.days_table([OwnDay(day, states, [], hints=3)], tried)
+    text = pages.page("robo47", "", table, style=overview.STYLE)
+    _, _, beyond, *_ = measured(chromium, tmp_path, text, 390, "tr > *")
+    assert beyond == "0"
+
+
+def test_a_counter_of_nothing_is_left_out_but_for_what_passes(log):
+    text = page.render(report_on(log, line(value=1.0)), "")
+    labels = re.findall(r'<span class="muted">([a-z ]+)</span></div>', text)
+    assert "passing" in labels  # the first counter says 0
+    assert "lines to look at" not in labels
+    assert re.findall(r'class="tile"><b class="\w*">(\d+)', text).count("0") <= 1

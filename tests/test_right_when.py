@@ -74,7 +74,7 @@ def test_a_question_without_an_answer_says_nothing():
     calls = [(A, b) for A, b, *_ in states()]
     right = lambda A, b: np.linalg.solve(A, b)  # noqa: E731
     says = told(lambda A, b: A @ b, right, calls, ["A", "b"])
-    assert says == "The result is right whenever A is the identity."
+    assert says == "The result is right whenever A is the identity matrix."
 
 
 def test_a_pose_is_neutral_in_two_ways():

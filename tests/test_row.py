@@ -145,7 +145,7 @@ def test_a_shape_of_drawn_numbers_may_be_one_tuple():
         (
             "in every factor, ",
             "in [p] of the adjoint, x",
-            "in [p] of the adjoint of every",
+            "in [p] of the adjoint in every",
         ),
         ("in `outer`, ", "in `inner`, x is lost", "in `inner`, x is lost"),
         ("in the adjoint, ", "a sign is lost", "in the adjoint, a sign is lost"),

@@ -21,11 +21,6 @@ def copy(tmp_path_factory):
 
 
 @pytest.fixture
-def clone(copy):
-    return copy.put_back()
-
-
-@pytest.fixture
 def day(clone):
     return find_day(1, clone)
 

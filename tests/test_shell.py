@@ -15,7 +15,6 @@ pytestmark = pytest.mark.kit
 
 MAKEFILE = (ROOT / "Makefile").read_text("utf-8").replace("\\\n", " ")
 VERBS = re.search(r"^VERBS := (.*)", MAKEFILE, re.M)[1].split()
-NOT_BEGUN = "day1_transforms.py is not there; first: make start DAY=1"
 
 
 def make(folder, *goals, **variables):

@@ -202,6 +202,10 @@ def test_an_accented_letter_has_its_index_beside_it_and_its_dot_clear_of_it():
     assert "accent" not in mathml(r"\ddot q + \hat x")  # set into the letter at 1x
     assert mathml(r"a \sin q").count("<mspace") == 2  # "asin q" is another function
     assert "<mspace" not in mathml(r"\sin(q)")
+    # An index is as low at a letter with a tail as at another one.
+    assert '<mpadded depth="0em"><mi>q</mi>' in mathml("q_s")
+    assert "mpadded" not in mathml("q + a_s")
+    assert mathml("d = |q|").count('lspace="0em"') == 2
 
 
 def test_an_equation_of_a_docstring_keeps_its_lines():
@@ -629,6 +633,11 @@ def test_without_webgl_pictures_and_numbers_stay(browse):
     says = "document.querySelector('#stage').innerText.includes('no 3D')"
     page.wait_for_function(says, timeout=60_000)
     assert "off by" in page.inner_text("#off")
+    page = browse("index.html")
+    words = page.locator(".picture.none")
+    words.wait_for(timeout=60_000)
+    ink = words.evaluate("node => getComputedStyle(node).color.match(/\\d+/g)")
+    assert min(map(int, ink)) > 200  # on the dark ground of the stage
 
 
 @pytest.mark.browser

@@ -17,7 +17,7 @@ from labkit.judge.ask import asked_of
 from labkit.judge.judge import judge
 from labkit.judge.mutant import Body
 from labkit.judge.row import row_of
-from labkit.judge.sentence import has_its_kind
+from labkit.judge.sentence import has_its_kind, what
 from labkit.judge.sentence import told as says_of
 from labkit.lesson.day import find_day
 
@@ -262,7 +262,7 @@ def test_a_change_that_no_line_of_the_file_has_is_told_of_the_correct_formula():
 
     says = judged(4, "4.2", link_inertias).message
     assert says.startswith(
-        "Your output equals the correct formula with one change: a bracket "
+        "Your code gives the result of the correct formula with one change: a bracket "
     )
 
 
@@ -272,3 +272,13 @@ def test_a_product_in_the_wrong_order_may_lack_a_transpose():
     case = SimpleNamespace(source="def f(A, b):\n    return [0]\n", names=("A", "x"))
     says = says_of(SimpleNamespace(case=case, known={}), one)
     assert says == "two operands are in the wrong order, or a transpose is missing"
+
+
+@pytest.mark.parametrize(("new", "size"), [("2.0 * x", "twice"), ("0.5 * x", "half")])
+def test_a_factor_of_two_says_which_way_it_goes(new, size):
+    node = ast.parse("x", mode="eval").body
+    mutant = SimpleNamespace(
+        kind="factor",
+        edits=[(SimpleNamespace(node=node), ast.parse(new, mode="eval").body)],
+    )
+    assert what(mutant) == f"one value is {size} as large as it should be"

@@ -187,7 +187,7 @@ class TestDoor:
         text = door.render(door.pages_beside(tmp_path))
         assert text.index("proof-week2.html") < text.index("proof-week10.html")
         assert "proof-week3.html" not in text
-        assert "3 of 9 functions theirs" in text
+        assert "3 of 9 functions by the student" in text
 
     def test_a_name_cannot_end_the_comment_or_bring_a_script(self, tmp_path):
         page = tmp_path / door.PAGE.format(1)

@@ -5,29 +5,18 @@ import select
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 
 import pytest
-from restored import Restored
 from test_check_day import solve
 
-from conftest import copy_kit, environment_of
+from conftest import environment_of
 from labkit.base.keys import Keys
 from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
 
 WATCH = "scripts/watch_day.py"
-
-
-@pytest.fixture(scope="module")
-def copy(tmp_path_factory):
-    """Return a copy of the kit that is put back after each test."""
-    return Restored(copy_kit(tmp_path_factory.mktemp("kit") / "clone"))
-
-
-@pytest.fixture
-def clone(copy):
-    return copy.put_back()
 
 
 @pytest.fixture
@@ -113,50 +102,42 @@ class TestTheLoop:
         assert "make start DAY=2" in done.stderr
 
 
+@contextmanager
+def on_a_terminal(clone):
+    """Watch on a terminal; yield its other end, and end with the key q."""
+    import pty
+
+    main, other = pty.openpty()
+    with subprocess.Popen(
+        command(1),
+        cwd=clone,
+        env=environment_of(clone) | {"TERM": "dumb"},
+        stdin=other,
+        stdout=other,
+        stderr=other,
+        close_fds=True,
+    ) as watcher:
+        os.close(other)
+        yield main
+        os.write(main, b"q")
+        assert watcher.wait(timeout=30) == 1
+    os.close(main)
+
+
 @pytest.mark.skipif(os.name == "nt", reason="a terminal of this kind is POSIX's")
 class TestKeys:
     def test_are_heeded_on_a_terminal(self, day, clone):
-        import pty
-
-        main, other = pty.openpty()
-        with subprocess.Popen(
-            command(1),
-            cwd=clone,
-            env=environment_of(clone) | {"TERM": "dumb"},
-            stdin=other,
-            stdout=other,
-            stderr=other,
-            close_fds=True,
-        ) as watcher:
-            os.close(other)
-            _read_until(main, "q quit")
-            os.write(main, b"l")
-            assert "1.4  quat_to_R" in _read_until(main, "1.8")
-            os.write(main, b"h")
-            assert "hint 1 of" in _read_until(main, "Re-read")
-            _read_until(main, "q quit")
-            os.write(main, b"q")
-            assert watcher.wait(timeout=30) == 1
-        os.close(main)
+        with on_a_terminal(clone) as terminal:
+            _read_until(terminal, "q quit")
+            os.write(terminal, b"l")
+            assert "1.4  quat_to_R" in _read_until(terminal, "1.8")
+            os.write(terminal, b"h")
+            assert "hint 1 of" in _read_until(terminal, "Re-read")
+            _read_until(terminal, "q quit")
 
     def test_the_line_that_says_others_are_asked_is_taken_back(self, day, clone):
-        import pty
-
-        main, other = pty.openpty()
-        with subprocess.Popen(
-            command(1),
-            cwd=clone,
-            env=environment_of(clone) | {"TERM": "dumb"},
-            stdin=other,
-            stdout=other,
-            stderr=other,
-            close_fds=True,
-        ) as watcher:
-            os.close(other)
-            said = _read_until(main, "q quit")
-            os.write(main, b"q")
-            assert watcher.wait(timeout=30) == 1
-        os.close(main)
+        with on_a_terminal(clone) as terminal:
+            said = _read_until(terminal, "q quit")
         asking = "asking the others again ..."
         assert said.count(asking) == 1
         after = said.partition(asking)[2]

@@ -52,6 +52,19 @@ def faults_of(row: Row) -> Iterator[str]:
         yield f"it stops at a question of its own: {type(error).__name__}: {error}"
 
 
+def capitals(row: Row) -> Iterator[str]:
+    """Yield the sentences of mistakes that begin with a capital, as in "Your code ...".
+
+    A sentence may follow "In line 12, ". A name in capitals, such as "R is", is none.
+    """
+    for way in row.named:
+        if re.match(r"[A-Z][a-z]+ ", way.says):
+            yield (
+                f"the sentence of {way.slug} begins with a capital, but it may follow "
+                f'"In line 12, ": {way.says.partition(". ")[0]}'
+            )
+
+
 def _called(function: Callable[..., Any], call: str, like: Sequence[Any]) -> Any:
     """Return what a function answers to a call, typed as text.
 
@@ -224,9 +237,12 @@ def _documented_shapes(text: str, arguments: Sequence[str]) -> list[tuple[str, s
     first = text.partition(". ")[0]
     told, answers = [], []
     for shape in _SHAPE.finditer(text):
-        if shape.start() in found:
+        of_the_answer = text[shape.start() - 2 :][:1] == ","
+        # Behind "Return A^-1 e, (n,)." the first sentence ends: it is no shape of e.
+        ends = of_the_answer and shape.end() == len(first.rstrip("."))
+        if shape.start() in found and not ends:
             told.append((found[shape.start()], shape[1]))
-        elif shape.end() <= len(first) and text[shape.start() - 2 :][:1] == ",":
+        elif shape.end() <= len(first) and of_the_answer:
             answers.append(("", shape[1]))
     # Several answers do not show to which result each belongs.
     return [*told, *answers] if len(answers) == 1 else told

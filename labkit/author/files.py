@@ -11,10 +11,10 @@ from labkit.base.exchange import Exchange, Question
 from labkit.handin.worksheet import split_sections
 from labkit.judge.answers import InTurn
 from labkit.judge.ask import Draw, stacked
-from labkit.judge.row import Row, rows_of
+from labkit.judge.row import Row, row_of
 from labkit.judge.written import faults as row_faults
 from labkit.lesson.day import Day, all_days
-from labkit.lesson.lab_module import read_script
+from labkit.lesson.lab_module import definition, read_script
 from labkit.lesson.starter import find_regions
 from robo47.paths import ROOT, shown
 
@@ -67,16 +67,18 @@ def unwritten(day: Day) -> Iterator[str]:
         for ending, words in SKELETON.items():
             left = [one for one in words if path.name.endswith(ending) and one in text]
             for one in left:
-                yield f'{shown(path)} has the skeleton\'s "{one}" still'
+                yield f'{shown(path)} still has the words of the skeleton: "{one}"'
 
 
 def _regions(day: Day) -> Iterator[str]:
     manifest = shown(day.own / "day.toml")
     source = shown(day.source)
     wanted = {(task.id, name) for task in day.tasks for name in task.functions}
-    regions = find_regions(read_script(day.source), source)
+    text = read_script(day.source)
+    regions = find_regions(text, source)
     found = {(region.task, region.function): region.start + 1 for region in regions}
-    for task, name in sorted(wanted - set(found)):
+    written = {one for one in wanted if definition(text, one[1])}
+    for task, name in sorted(written - set(found)):
         yield (
             f"{source}: no region {task} in {name}, which {manifest} asks for. Put "
             f"`# region {task}` and `# endregion {task}` around its body"
@@ -102,9 +104,20 @@ def _names(day: Day) -> Iterator[str]:
 
 
 def _functions(day: Day) -> Iterator[str]:
-    for name, row in rows_of(day).items():
+    names = [name for task in day.tasks for name in task.functions]
+    missing = [name for name in names if not day.has(name)]
+    for name in missing:
+        yield (
+            f"{shown(day.own / name)}.py is missing: the questions for {name} and its "
+            "mistakes (docs/authors.md, section 3)"
+        )
+    for name in (one for one in names if one not in missing):
+        row = row_of(day, name)
         if not callable(getattr(row.lab, name, None)):
-            yield f"{shown(day.source)}: no function {name}"
+            yield (
+                f"{shown(day.source)}: no function {name}, which "
+                f"{shown(day.own / 'day.toml')} asks for"
+            )
             continue
         calls = row.ask.inputs
         file = f"{shown(day.own)}/{name}.py"

@@ -118,7 +118,8 @@ def renumbered(text: str, day: Day, number: int, stem: str) -> str:
         rf"\b((?:lesson_|test_)?[dD]ay ?){n}(?!\d|\.\d)", rf"\g<1>{number}", text
     )
     calls = (
-        r"\bDAY=|\bfind_day\(|^number = |\bload_day\(|\bsentences\(|\bconstants\.py "
+        r"\bDAY=|\b(?:find_day|complete_lab)\(|^number = |\bload_day\(|"
+        r"\bsentences\(|\bconstants\.py "
     )
     text = re.sub(rf"({calls}){n}\b", rf"\g<1>{number}", text, flags=re.MULTILINE)
     ids = "|".join(re.escape(task.id) for task in day.tasks)

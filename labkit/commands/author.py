@@ -17,6 +17,7 @@ from collections.abc import Iterator
 
 from labkit.author import display, docstring, files, ranges, student, week
 from labkit.base import cli, processes
+from labkit.base.text import count
 from labkit.commands import docs
 from labkit.judge.guard import LOUD
 from labkit.judge.row import rows_of
@@ -122,6 +123,8 @@ def docstrings(day: Day) -> Iterator[str]:
     for name, row in rows_of(day).items():
         for fault in docstring.faults_of(row):
             yield f"{shown(day.source)}, {name}: {fault}"
+        for fault in docstring.capitals(row):
+            yield f"{shown(day.own / name)}.py: {fault}"
         if typed := docstring.unlike_its_questions(row):
             NOTES.append(
                 f"{shown(day.source)}, {name}: its docstring has {', '.join(typed)}, "
@@ -152,7 +155,8 @@ def constants(day: Day) -> Iterator[str]:
 def documents(day: Day) -> Iterator[str]:
     """Yield what the documents do not show as it is."""
     if drift := docs.renew(docs.documents_of(day), check=True):
-        yield f"{drift} outputs are not today's. To insert: make docs DAY={day.number}"
+        changed = f"{count(drift, 'output')} changed"
+        yield f"{changed}. To insert the new text: make docs DAY={day.number}"
 
 
 def notebooks(day: Day) -> Iterator[str]:
@@ -212,11 +216,12 @@ def look(name: str, day: Day) -> bool:
 def one_task(day: Day, task: Task) -> int:
     """Look at one task alone, which takes seconds and needs no guide yet."""
     print(f"Task {task.id}: {', '.join(task.functions)}, in {shown(day.own)}/")
-    found = []
+    rows, found = rows_of(day), []
     for name in task.functions:
+        _ = rows[name].ask  # a row that is not whole stops here, with its reason
         code, lines = run(day, "tests/catalogue.py", str(day.number), f"{name}:")
         found += lines[:-1] if code else []
-        found += docstring.faults_of(rows_of(day)[name])
+        found += [*docstring.faults_of(rows[name]), *docstring.capitals(rows[name])]
         print(f"{cli.verdict(not code)}  {name}: {lines[-1] if lines else 'nothing'}")
     told = list(student.check(day, task.id))
     print(f"{cli.verdict(not told)}  make check, on the lab's own file")
@@ -245,8 +250,9 @@ def main() -> int:
         skipped = options.fast and name == "tests"
         wrong += [] if skipped or look(name, day) else [name]
         if wrong == ["files"]:  # nothing else could say more than that
-            first = day.tasks[0].id
-            print(f"    the rest comes then; one task now: make author TASK={first}")
+            last = day.tasks[-1].id
+            says = "The other checks need these files. One task can be checked alone: "
+            print(cli.wrapped(f"    {says}make author TASK={last}", "    "))
             break
     says = f"faults in: {', '.join(wrong)}" if wrong else ""
     return cli.conclude(not wrong, says or "no faults")

@@ -26,7 +26,7 @@ from robo47.paths import ROOT, shown
 # The files contain $number, $name and $week.
 TEMPLATES = Path(__file__).parent / "templates"
 # These files are copied from another week.
-COPIED = ("Makefile", "src/kit.py", "docs/RETRO_w{}.md")
+COPIED = ("Makefile", "src/kit.py")
 LAST_DAY = 47
 
 
@@ -121,14 +121,15 @@ def _new_week(folder: Path, values: dict[str, str]) -> list[Path]:
     other = weeks()[-1]
     values |= {"weeknumber": parts[1], "weekname": parts[2]}
     values |= {"other": other.folder.name, "otherweek": str(other.number)}
-    files = [_write(folder / name, name, values) for name in ("week.toml", "README.md")]
+    retro = f"docs/RETRO_w{parts[1]}.md"
+    files = {"week.toml": "week.toml", "README.md": "README.md", retro: "RETRO.md"}
+    written = [_write(folder / to, of, values) for to, of in files.items()]
     for name in COPIED:
-        files.append(folder / name.format(parts[1]))
-        files[-1].parent.mkdir(parents=True, exist_ok=True)
-        text = (other.folder / name.format(other.number)).read_text("utf-8")
-        text = text.replace(f"# Week {other.number}:", f"# Week {parts[1]}:")
-        files[-1].write_text(text, "utf-8", newline="\n")
-    return files
+        written.append(folder / name)
+        written[-1].parent.mkdir(parents=True, exist_ok=True)
+        text = (other.folder / name).read_text("utf-8")
+        written[-1].write_text(text, "utf-8", newline="\n")
+    return written
 
 
 def _write(path: Path, template: str, values: dict[str, str]) -> Path:

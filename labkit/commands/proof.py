@@ -190,7 +190,7 @@ def run_days(
         with cli.busy(f"day {day.number}"):
             at = graded.get(day.number, last)
             found = facts_of(day, student, folder, sandbox, own=own, at=at)
-        theirs = f"{len(found.own)} of {found.functions} functions theirs"
+        theirs = f"{len(found.own)} of {found.functions} functions by the student"
         print(f"  day {day.number}: {theirs}", flush=True)
         yield found
 

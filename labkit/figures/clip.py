@@ -19,7 +19,7 @@ from tqdm import tqdm
 from labkit.figures import client
 from labkit.figures.portrait import ghosts, link_frames, with_fingers
 from labkit.figures.scene import Box, Camera, Scene
-from labkit.figures.sheet import with_line
+from labkit.figures.sheet import side_by_side, with_line
 from robo47.attempt import Film
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -183,13 +183,14 @@ def film_clip(film: Film, path: Path) -> str:
 
 
 def film_picture(film: Film, path: Path) -> str:
-    """Write a PNG: the arm at the film's moments, side by side; say so in a line."""
+    """Write a PNG: the film's moments side by side, named; say so in a line."""
     begins = dict(film.phases)
     rows = np.searchsorted(film.t, [begins[name] for name in film.moments])
     whole = [client.draw(scene_of(film, row, PICTURE_SIZE)) for row in rows]
     quarter = PICTURE_SIZE[0] // 4
-    middles = [part[:, quarter:-quarter] for part in whole]
-    sheet = Image.fromarray(np.hstack(middles))
+    middles = [Image.fromarray(part[:, quarter:-quarter]) for part in whole]
+    times = [f"{film.t[row]:.1f} s" for row in rows]
+    sheet = side_by_side(*zip(middles, film.moments, times, strict=True))
     try:
         sheet.save(path, "PNG")
     except (OSError, ValueError) as error:

@@ -86,16 +86,18 @@ class Layer:
         r = radius * self.unit
         self.pen.ellipse((at[0] - r, at[1] - r, at[0] + r, at[1] + r), colour)
 
-    def triad(self, ends: Array) -> None:
+    def triad(self, ends: Array, rim: tuple[int, ...] = HALO, width: float = 4) -> None:
         """Draw a frame's axes, the nearest last.
 
         Args:
             ends: pixels of the origin and the three tips, and their depth, (4, 3).
+            rim: the colour around the axes.
+            width: of the rim, both sides together.
         """
         origin, *tips = ((float(x), float(y)) for x, y, _ in ends)
         axes = sorted(zip(ends[1:, 2], tips, (X, Y, Z), strict=True), reverse=True)
         for _, tip, colour in axes:
-            self.arrow(origin, tip, HALO, 4)
+            self.arrow(origin, tip, rim, width)
             self.arrow(origin, tip, colour, 0)
         self.dot(origin, INK, 4.5)
 

@@ -13,6 +13,7 @@ from robo47.checks import Array
 
 FOVY = np.radians(30.0)  # vertical angle of view; narrow, so that lines stay parallel
 FARTHEST = 6.0  # metres
+NOBODY = "nobody"
 MARGIN = 0.05  # share of the picture left free at its sides
 
 
@@ -98,4 +99,5 @@ class Scene:
     ghosts: tuple[Ghost, ...] = ()  # translucent copies
     fast: bool = False  # leave out multisampling, shadows and reflections
     boxes: tuple[Box, ...] = ()  # boxes beside the robot
-    robot: str = ""  # the path of an MJCF file, instead of the Panda
+    # The path of an MJCF file, instead of the Panda; NOBODY is the room alone.
+    robot: str = ""

@@ -15,7 +15,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from labkit.figures.scene import FOVY, Box, Camera, Ghost, Scene
+from labkit.figures.scene import FOVY, NOBODY, Box, Camera, Ghost, Scene
 from robo47 import panda
 from robo47.checks import Array
 from robo47.errors import Robo47Error
@@ -81,8 +81,11 @@ def renderer_for(
         far: from the camera to what it looks at, metres.
     """
     if robot:
-        spec = mujoco.MjSpec.from_file(robot)
+        nobody = robot == NOBODY
+        spec = mujoco.MjSpec() if nobody else mujoco.MjSpec.from_file(robot)
         light_up(spec)
+        if nobody:
+            spec.visual.rgba.haze = [*SKY, 1.0]  # it would be white at the horizon
         model = spec.compile()
     else:
         model = panda.load("panda", meshes=True, edit=light_up)
@@ -140,7 +143,7 @@ def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> No
         size = original.size
         pos = R @ original.pos + t
         mat = R @ original.mat
-        copy = _added(scene, original.type, size, pos, mat, colour)
+        copy = add_shape(scene, original.type, size, pos, mat, colour)
         copy.objtype, copy.objid = original.objtype, original.objid
         copy.dataid, copy.camdist = original.dataid, original.camdist
         copy.transparent = 1
@@ -152,13 +155,13 @@ def add_box(scene: mujoco.MjvScene, box: Box) -> None:
     t = box.T_world_box[:3, 3]
     colour = np.array(box.colour, dtype=np.float32)
     kind = mujoco.mjtGeom.mjGEOM_BOX
-    shape = _added(scene, kind, np.array(box.half), t, R, colour)
+    shape = add_shape(scene, kind, np.array(box.half), t, R, colour)
     shape.objtype = mujoco.mjtObj.mjOBJ_UNKNOWN
     shape.objid = -1
     shape.dataid, shape.transparent = -1, 0
 
 
-def _added(
+def add_shape(
     scene: mujoco.MjvScene, kind: int, size: Array, pos: Array, R: Array, colour: Any
 ) -> mujoco.MjvGeom:
     """Return a shape that is drawn besides.

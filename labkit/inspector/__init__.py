@@ -52,11 +52,13 @@ The modules, from the numbers to the page:
     robot                       a tab's own robot, instead of the arm
     tab, declared               what a tab is; one that a day declares
     canvas                      a picture of a plane
-    common_tabs                 the tabs that every day has
+    standing, common_tabs       how the tasks stand; the tabs that every day has
+    failing, failing_picture    a call of a task that fails, as a tab and as a picture
     app                         the page as a whole
     plain                       its numbers and sliders for a browser without 3D
     guard                       who may talk to it; our part of viser's page
     serve, recording            listens until Ctrl-C; a film without a server
 
-`arm`, `ghost`, `words` and `typed` need nothing new, the rest viser (the extra `view`).
+`arm`, `ghost`, `words`, `typed` and `failing` need nothing new, `failing_picture` needs
+Pillow (the extra `figures`), and the rest viser (the extra `view`).
 """

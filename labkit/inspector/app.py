@@ -19,13 +19,14 @@ from numpy.typing import ArrayLike
 from labkit.inspector import typed, words
 from labkit.inspector.animate import Jobs
 from labkit.inspector.arm import END, Arm
-from labkit.inspector.common_tabs import ASKING, Chain, Joints, Standing, Tasks
+from labkit.inspector.common_tabs import Chain, Joints, Tasks
 from labkit.inspector.draw import Sketch
 from labkit.inspector.ghost import Seen, asked
 from labkit.inspector.guard import TITLE
 from labkit.inspector.page import Page, Widget
 from labkit.inspector.scene import GHOST_COLOUR, ArmScene, Pointed
 from labkit.inspector.shapes import Shape
+from labkit.inspector.standing import ASKING, Standing
 from labkit.inspector.student import Student
 from labkit.inspector.tab import DayTabs, Tab
 from robo47.checks import Array, array
@@ -352,8 +353,7 @@ class Inspector:
 
     def show_tasks(self) -> None:
         """Show how the tasks stand, in the open tab too."""
-        if isinstance(self.tab, Tasks):
-            self.tab.show(self.standing)
+        self.guarded(partial(self.tab.judged, self.standing))
         self.schedule()
 
     def close(self) -> None:

@@ -2,8 +2,6 @@
 
 import math
 import secrets
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,13 +9,12 @@ import mujoco
 import numpy as np
 import viser
 
-from labkit.check.tasks import TaskResult
 from labkit.inspector import typed, words
 from labkit.inspector.arm import Step
 from labkit.inspector.declared import Declared, buttons, panel
 from labkit.inspector.page import Page
+from labkit.inspector.standing import Standing
 from labkit.inspector.tab import Tab
-from labkit.judge.mistake import Verdict
 from robo47.checks import Array
 
 RANDOM, UNDO = "random", "undo"
@@ -191,46 +188,6 @@ def says_of(this: Step, number: int, of: int, whole: bool) -> str:
     )
 
 
-@dataclass(frozen=True)
-class Standing:
-    """How the day's tasks stand."""
-
-    sentence: str  # the verdict; "" where there is no file
-    kind: str = "quiet"  # or "good" or "bad"
-    # in the day's order; () before the first verdict
-    tasks: tuple[TaskResult, ...] = ()
-    title: str = "make check"  # the task and the function that the sentence is about
-    count: str = ""  # such as "4 of 8 pass"
-
-
-ASKING = Standing("asking your functions ...", "asking")
-
-
-def standing(results: Sequence[TaskResult]) -> Standing:
-    """Return the tasks, in the day's order, and the first verdict to act on."""
-    first = results[0].verdict if results else Verdict("passed")
-    if first.mistake == "does-not-load":  # one reason, for all of them
-        todo = Verdict(first.status)
-        bare = tuple(replace(result, verdict=todo) for result in results)
-        return Standing(first.message, "bad", bare)
-    tasks, passed = tuple(results), sum(result.passed for result in results)
-    count = f"{passed} of {len(results)} pass"
-    if passed == len(results):
-        return Standing("All tasks pass.", "good", tasks, count=count)
-    wrong = [r for r in results if r.verdict.status not in ("passed", "todo")]
-    if not wrong:
-        after = next(r for r in results if not r.passed)
-        title = f"Next: {_named(after)}"
-        return Standing(after.task.title, "quiet", tasks, title, count)
-    return Standing(wrong[0].verdict.message, "bad", tasks, _named(wrong[0]), count)
-
-
-def _named(result: TaskResult) -> str:
-    """Return "5.1 pd_torque": the task and the function that was judged."""
-    names = result.verdict.function or ", ".join(result.task.functions)
-    return f"{result.task.id} {names}"
-
-
 class Tasks(Tab):
     """Pass, or the named mistake, for each task of the day, as `make check` says it."""
 
@@ -239,9 +196,9 @@ class Tasks(Tab):
     def __init__(self, page: Page) -> None:
         super().__init__(page)
         self.list = page.html()
-        self.show(page.host.standing)
+        self.judged(page.host.standing)
 
-    def show(self, standing: Standing) -> None:
+    def judged(self, standing: Standing) -> None:
         """Show the verdicts; the line about all of them stands on top of the panel."""
         self.list.content = listed(standing)
 

@@ -59,6 +59,10 @@ class Sketch:
         """Remove everything that was drawn here."""
         self.root.remove()
 
+    def part(self) -> "Sketch":
+        """Return a sketch that goes with this one, or is cleared before."""
+        return Sketch(self.server, self.coarse, self.path())
+
     def path(self) -> str:
         """Return a name in the scene tree for one more node of this tab."""
         return f"{self.root.name}/{next(NUMBERS)}"
@@ -95,6 +99,14 @@ class Sketch:
             self.path(), radius, rgb(colour), opacity=opacity,
             position=np.asarray(at, dtype=np.float64),
         )  # fmt: skip
+
+    def disc(
+        self, radius: float, height: float, colour: Colour = "grey"
+    ) -> viser.CylinderHandle:
+        """Draw an upright cylinder, metres; setting `position` moves its middle."""
+        return self.server.scene.add_cylinder(
+            self.path(), radius, height, rgb(colour), radial_segments=48
+        )
 
     def box(
         self, half: ArrayLike, colour: Colour = "grey", opacity: float | None = None

@@ -12,6 +12,8 @@ from viser import uplot
 from robo47.checks import Array
 
 WIDE = 60  # pixels, for the numbers beside a plot: 10,000
+LOW = 34  # pixels, for the numbers below a plot
+NAMED = 18  # pixels of the name below an axis
 LABELS = 9  # labels on a logarithmic axis, at most
 KEPT = 2_000  # points of a plot that is added to
 STROKES = ("#0b57c4", "#d55e00", "#00704f", "#7a3e9d", "#8a6d00", "#4a5560", "#b3261e",
@@ -102,10 +104,14 @@ class Plot:
         ]
         empty = tuple(np.full(1, least) for _ in series)
         self.top = 0.0  # of a logarithmic axis, at the curves' last points
+        name = {"label": x, "labelSize": NAMED, "labelFont": "12px sans-serif"}
+        self.across = uplot.Axis(**name, size=LOW)  # type: ignore[typeddict-item]
         self.handle = gui.add_uplot(
             empty, tuple(series), title=y or None, height=height,
             scales={"x": uplot.Scale(time=False)},
-            axes=(uplot.Axis(), uplot.Axis(size=WIDE)),
+            axes=(self.across, uplot.Axis(size=WIDE)),
+            # Without a mouse over the plot its values would all be "--".
+            legend=uplot.Legend(live=False),
             padding=(14, 20, 0, 0),  # no tick is cut in half
         )  # fmt: skip
         if least:
@@ -138,7 +144,7 @@ class Plot:
         span = uplot.Scale(distr=3, log=10, range=(powers[0], top))
         self.handle.scales = {"x": uplot.Scale(time=False), "y": span}
         ticks = uplot.Axis(size=WIDE, splits=powers, values=labels)
-        self.handle.axes = (uplot.Axis(), ticks)
+        self.handle.axes = (self.across, ticks)
 
     def add(self, x: float, values: ArrayLike) -> None:
         """Add a point to every curve, (m,), NaN for none; the oldest go after 2,000."""

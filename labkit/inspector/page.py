@@ -123,9 +123,9 @@ class Page:
         return Robot(self, bare(), dressed)
 
     def legend(self, colours: Mapping[str, Colour]) -> None:
-        """Say at the panel's end what colours mean: {what is drawn: its colour}."""
+        """Say over the scene what its colours mean: {what is drawn: its colour}."""
         told = {what: rgb(colour) for what, colour in colours.items()}
-        self.host.legend.content = words.legend(told)
+        self.host.legend.content = words.legend(told, "stage")
 
     def key(self, colours: Mapping[str, Colour]) -> viser.GuiHtmlHandle:
         """Add what the colours of a picture mean, directly below it."""

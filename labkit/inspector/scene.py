@@ -68,6 +68,7 @@ class ArmScene:
         self.way = draw.lines(nowhere, HIGHLIGHT)
         self.gap = draw.lines(nowhere, GHOST_COLOUR)
         self.way.visible = self.gap.visible = False
+        self.yours_at: tuple[Mapping[str, Array], str] = ({}, "")
         self.worn: Sequence[Shape] = ()
         self.coarse: Sequence[Shape] = ()
         self.update()
@@ -90,8 +91,9 @@ class ArmScene:
             triad.place(self.arm.by_library[name])
 
     def hide(self, hidden: bool = True) -> None:
-        """Draw no arm and no frames, or draw them again."""
+        """Draw no arm, no ghost of it and no frames, or draw them again."""
         self.hidden = hidden
+        self.show_ghost(*self.yours_at)
         self.world.show(not hidden, chosen=False)
         if hidden:
             self.light(None, ())
@@ -115,6 +117,8 @@ class ArmScene:
 
     def show_ghost(self, poses: Mapping[str, Array], end: str) -> None:
         """Draw the student's arm, {short name: (4, 4)}, and a line to its end."""
+        self.yours_at = poses, end
+        poses = {} if self.hidden else poses
         self.ghost.pose(self.arm.carried(poses))
         there = poses.get(end)
         self.yours.show(there is not None, chosen=True)

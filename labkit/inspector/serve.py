@@ -19,13 +19,14 @@ import mujoco
 import viser
 
 from labkit.base import cli, store
-from labkit.check.tasks import check_tasks
+from labkit.check.tasks import TaskResult, check_tasks
 from labkit.inspector import plain
 from labkit.inspector.app import Inspector
 from labkit.inspector.arm import Arm
-from labkit.inspector.common_tabs import Standing, standing
+from labkit.inspector.failing import failing_tab
 from labkit.inspector.guard import LOOPBACK, LocalServer
 from labkit.inspector.shapes import GRID, shapes, simple_links, thinned
+from labkit.inspector.standing import Standing, standing
 from labkit.inspector.student import Student
 from labkit.inspector.tab import day_tabs
 from labkit.lesson.day import Day
@@ -47,6 +48,7 @@ def serve(
     *,
     simple: bool,
     back: bool,
+    failing: TaskResult | None = None,
 ) -> NoReturn:
     """Serve the page until Ctrl-C, at this port or the next free one.
 
@@ -58,6 +60,7 @@ def serve(
         port: where to listen.
         simple: without the fine meshes, for a computer without a GPU.
         back: begin in the tab and the pose where the day's last page ended.
+        failing: a task that fails: its call is shown first, in a tab of its own.
 
     Raises:
         Robo47Error: no port is free, or the day's tabs do not load.
@@ -66,6 +69,8 @@ def serve(
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     tabs = day_tabs(day)
+    if failing:
+        tabs = tabs._replace(tabs=[failing_tab(day, failing), *tabs.tabs])
     server = LocalServer(free_port(port))
     with contextlib.ExitStack() as ends:
         ends.callback(server.stop)
@@ -83,7 +88,7 @@ def serve(
             if back and isinstance(before, str):
                 on_loop(server, partial(page.receive, before))
             print("\n".join(where_to_look(port, server)), flush=True)
-            checks = Checks(day)
+            checks = Checks(day, failing.task.id if failing else "")
             for work in (page.watch(checks.ask, checks.stop), dress(page, dressed)):
                 loop = server.get_event_loop()
                 ends.callback(asyncio.run_coroutine_threadsafe(work, loop).cancel)
@@ -99,8 +104,10 @@ def serve(
 class Checks:
     """What the checker says of the student's file of a day, save after save."""
 
-    def __init__(self, day: Day) -> None:
+    def __init__(self, day: Day, task: str = "") -> None:
+        """Take the day, and the task that is told first while it is wrong."""
         self.day = day
+        self.task = task
         self.deadline = deadline_of(day)
 
     def ask(self) -> Standing:
@@ -109,7 +116,8 @@ class Checks:
         try:
             with Sandbox() as sandbox:
                 file, until = self.day.work, self.deadline
-                return standing(check_tasks(self.day, file, sandbox, deadline=until))
+                found = check_tasks(self.day, file, sandbox, deadline=until)
+                return standing(found, self.task)
         except Exception as error:  # the page goes on, whatever the file is like
             return Standing(str(error), "bad")
 

@@ -11,6 +11,7 @@ from robo47.paths import shown
 if TYPE_CHECKING:
     from labkit.inspector.page import Page
     from labkit.inspector.scene import View
+    from labkit.inspector.standing import Standing
 
 FILE = "inspector"
 PLAYS = 6.0  # seconds that a tab plays by itself
@@ -38,6 +39,9 @@ class Tab:
 
         For `PLAYS` seconds, unless it ends by itself: nobody has to press anything.
         """
+
+    def judged(self, standing: "Standing") -> None:
+        """Hear what the checker says of the file now, or that it is at work."""
 
     def lost(self) -> None:
         """Show no numbers: the student's function gave none."""

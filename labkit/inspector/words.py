@@ -28,24 +28,29 @@ def matrix(
     marked: NDArray[np.bool_] | None = None,
     mark: str = "off",
 ) -> str:
-    """Return a pose as an aligned block under its name.
+    """Return a pose, or any other matrix, as an aligned block under its name.
 
     Args:
         name: such as "T_world_ee".
-        T: (4, 4).
+        T: (4, 4); another one, (m, n), has no colours and no names of columns.
         key: as above.
-        marked: entries to mark, (4, 4) of bool.
+        marked: entries to mark, of the same shape, of bool.
         mark: how: "off" for wrong ones, "moves" for what q changes.
     """
-    off = np.zeros((4, 4), dtype=bool) if marked is None else marked
-    head = "".join(f'<span class="{c} head">{c:>10}</span>' for c in COLUMNS)
+    off = np.zeros(T.shape, dtype=bool) if marked is None else marked
+    columns = COLUMNS if T.shape == (4, 4) else [""] * T.shape[1]
+    head = "".join(f'<span class="{c} head">{c:>10}</span>' for c in columns)
     rows = "\n".join(
-        "".join(_entry(row[j], COLUMNS[j], mark if bad[j] else "") for j in range(4))
-        for row, bad in zip(T, off, strict=True)
+        "".join(
+            _entry(x, column, mark if bad else "")
+            for x, column, bad in zip(row, columns, some, strict=True)
+        )
+        for row, some in zip(T, off, strict=True)
     )
+    top = f'<pre aria-hidden="true">{head}</pre>' if T.shape == (4, 4) else ""
     return (
-        f'<div class="r47-matrix"><b>{escape(name)}</b><pre aria-hidden="true">{head}'
-        f'</pre><pre data-matrix="{escape(key)}">{rows}</pre></div>'
+        f'<div class="r47-matrix"><b>{escape(name)}</b>{top}'
+        f'<pre data-matrix="{escape(key)}">{rows}</pre></div>'
     )
 
 
@@ -191,10 +196,14 @@ def state(address: str, heard: int) -> str:
     return f'<div hidden data-r47-state="{told}"></div>'
 
 
-def legend(colours: Mapping[str, tuple[int, int, int]]) -> str:
-    """Return what the colours in the scene mean, {what is drawn: its colour}."""
+def legend(colours: Mapping[str, tuple[int, int, int]], where: str = "") -> str:
+    """Return what colours mean, {what is drawn: its colour}.
+
+    With "stage" it stands over the scene, else where it is made.
+    """
     made = "".join(
         f'<span><i style="background:rgb{rgb}"></i>{escape(what)}</span>'
         for what, rgb in colours.items()
     )
-    return f'<div class="r47 r47-legend" data-line="legend">{made}</div>'
+    kind = f"r47 r47-legend r47-{where}" if where else "r47 r47-legend"
+    return f'<div class="{kind}" data-line="legend">{made}</div>' if made else ""

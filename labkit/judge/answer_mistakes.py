@@ -48,24 +48,24 @@ GENERAL = _mistakes(
     """
     all-signs: every sign of your result is wrong
     whole-numbers: your values are truncated to whole numbers, because your array has an
-      integer dtype. Create the array with floats
+      integer dtype. Create an array of floats instead
     transposed: your matrix is transposed
-    reshaped: your code reshapes the array where it should transpose it. Only .T turns
-      rows into columns
+    reshaped: your code reshapes the array instead of transposing it. Only .T turns rows
+      into columns
     rows-swapped: your rows are in the order (v; omega). The rows of omega should come
       first
-    inverse: your result is the inverse, the information matrix. It should be the
-      covariance
+    inverse: your result is the inverse of the covariance, the information matrix.
+      Return the covariance itself
     sigma-for-variance: your entries are standard deviations, but a covariance contains
       their squares
     halves-swapped: your two halves are swapped. The first should be {halves[0]}, the
       second {halves[1]}
     blocks-swapped: your blocks are in the order (v; omega), but omega comes first
-    counted-from-one: your index is counted from 1. It should be counted from 0
+    counted-from-one: your index is counted from 1 instead of 0
     one-too-small: your index is one too small
     inverted: your code swaps True and False
-    row-first: your code puts the row first. A pixel is (column, row), so x comes before
-      y
+    row-first: your code puts the row first. A pixel is (x, y), so the column comes
+      first
     """,
     {
         "all-signs": np.negative,
@@ -94,7 +94,7 @@ def general(*slugs: str, **words: Any) -> list[Mistake]:
 OF_A_ROTATION = [
     *_mistakes(
         """
-        R-transposed: your matrix is transposed, so it rotates in the opposite sense
+        R-transposed: your matrix is transposed, so it rotates in the opposite direction
         left-handed: your third axis is reversed, so the frame is left-handed (det R =
           -1)
         all-signs: every entry of your matrix has the wrong sign
@@ -111,15 +111,15 @@ _OF_A_POSE = _mistakes(
     """
     R-transposed: your translation is correct, but R is transposed, so T[:3, :3]
       {wrong_way}
-    inverse-returned: your result is the inverse, so it {wrong_way}
+    inverse-returned: your result is the inverse, so the matrix {wrong_way}
     T-transposed: your whole 4x4 matrix is transposed, so its bottom row is not (0, 0,
       0, 1)
-    t-in-last-row: your translation is in the last row. It should be in the last column
-    corner-zero: your bottom row is (0, 0, 0, 0). It should be (0, 0, 0, 1)
-    ones-below: your bottom row is (1, 1, 1, 1). It should be (0, 0, 0, 1)
+    t-in-last-row: your translation is in the last row instead of the last column
+    corner-zero: your bottom row is (0, 0, 0, 0) instead of (0, 0, 0, 1)
+    ones-below: your bottom row is (1, 1, 1, 1) instead of (0, 0, 0, 1)
     t-lost: your rotation is correct, but the translation is missing
     R-lost: your translation is correct, but the rotation is missing, because your R is
-      the identity
+      the identity matrix
     t-negated: your rotation is correct, but the translation has the wrong sign
     left-handed: your third axis is reversed, so the frame is left-handed (det R = -1)
     millimetres: your rotation is correct, but the translation is in millimetres
@@ -140,7 +140,7 @@ _OF_A_POSE = _mistakes(
 )
 
 
-def of_a_pose(wrong_way: str = "rotates in the opposite sense") -> list[Mistake]:
+def of_a_pose(wrong_way: str = "rotates in the opposite direction") -> list[Mistake]:
     """Return mistakes made with a finished pose.
 
     Args:

@@ -49,12 +49,13 @@ OF_AN_ANGLE = (
     RADIANS_TWICE,
     Change(
         "half-angle",
-        "your code rotates by half of `{name}`, as in a quaternion",
+        "your code rotates by half of `{name}`. A quaternion contains the half angle, "
+        "but a rotation matrix contains the whole angle",
         lambda x: x / 2,
     ),
     Change(
         "double-angle",
-        "your code rotates by twice `{name}`, but only a quaternion has half angles",
+        "your code rotates by twice `{name}`. Use `{name}` itself",
         lambda x: 2 * x,
     ),
 )
@@ -65,7 +66,7 @@ NEGATED = Change(
 )
 BACKWARDS = Change(
     "all-backwards",
-    "every joint in your code rotates in the opposite sense, by -{name}",
+    "every joint in your code rotates in the opposite direction, by -{name}",
     np.negative,
 )
 
@@ -77,7 +78,8 @@ LEFT_OUT = Change(
 )
 FIRST_FOR_ALL = Change(
     "first-angle-for-all",
-    "every joint in your code uses `{name}[0]`, but each joint has its own entry",
+    "every joint in your code uses `{name}[0]`, but each joint has its own entry in "
+    "`{name}`",
     lambda x: np.repeat(x[:1], len(x), axis=0),
 )
 ONE_OFF = Change(
@@ -121,6 +123,6 @@ OF_ALL_JOINTS = (
 # Order within it.
 HALVES_SWAPPED = Change(
     "halves-swapped",
-    "your code swaps the halves of `{name}`. The angular half should come first",
+    "your code swaps the halves of `{name}`. In `{name}`, the angular half comes first",
     partial(np.roll, shift=3, axis=0),
 )

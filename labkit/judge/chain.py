@@ -102,8 +102,8 @@ def first_wrong(
     if k == 0:
         return f"The result is already wrong for the path that ends in {names[0]}."
     return (
-        f"For shorter paths, the result is right up to {names[k - 1]}; the step to "
-        f"{names[k]} is the first wrong one."
+        f"For shorter paths, the result is right up to {names[k - 1]}. The step to "
+        f"{names[k]} is the first wrong step."
     )
 
 

@@ -79,7 +79,7 @@ def of_answer() -> Iterator[tuple[str, Callable[[Array], Any]]]:
 
     A factor and a sign are none of them: their kind tells these with what they are.
     """
-    yield "drops its sign", np.abs
+    yield "takes its absolute value", np.abs
     yield "squares it", np.square
     yield "takes its square root", np.sqrt
     yield "takes its reciprocal", lambda T: 1.0 / T

@@ -14,7 +14,7 @@ from labkit.judge.answers import (
 )
 from labkit.judge.ask import Ask, Asked, HeldOut, of_complex, right_answers
 from labkit.judge.kinds import Kind
-from labkit.judge.mistake import Compared, Finding
+from labkit.judge.mistake import Compared, Example, Finding
 from labkit.judge.replies_read import not_accepted, read
 from labkit.judge.results import places, split
 from labkit.judge.typed import shown, typed, typed_one
@@ -33,6 +33,7 @@ class Failing(NamedTuple):
     call: str = ""
     whole: tuple[str, ...] = ()  # every argument and entry, a line each
     compared: Compared | None = None
+    example: Example | None = None
 
 
 AS_FAR = 0.999  # of the furthest: as far off, so that rounding does not choose
@@ -57,7 +58,8 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
         assert one.reply
         yours = (f"yours: {shown(one.reply.value)}",)
         says = f"One failing call: {typed(one.question, names)}."
-        return Failing(says, _given(one.question, names) + yours)
+        whole = _given(one.question, names) + yours
+        return Failing(says, whole, None, Example(one.question, one.reply.value))
     return Failing()
 
 
@@ -66,7 +68,8 @@ def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | No
         if one.reply and (one.reply.kind or one.reply.value is None):
             what = "stops" if one.reply.kind else "returns nothing"
             says = f"{typed(one.question, names)} {what}."
-            return Failing(says, _given(one.question, names))
+            whole = _given(one.question, names)
+            return Failing(says, whole, None, Example(one.question))
     return None
 
 
@@ -81,7 +84,8 @@ def _misfit(
                 return None
             shape = one.reply.value.shape
             says = f"{typed(one.question, names, LONG)} returned shape {shape}."
-            return Failing(says, _given(one.question, names))
+            whole = _given(one.question, names)
+            return Failing(says, whole, None, Example(one.question))
     return None
 
 
@@ -124,7 +128,8 @@ def _wrong(
     pairs = zip(ask.kinds, right, strict=True)
     whole += [f"right: {shown(kind.sent(values[0]))}" for kind, values in pairs]
     compared = _compared(ask, part, given[part][0], right[part][0])
-    return Failing(f"{says} {entries}.", tuple(whole), compared)
+    example = Example(one.question, one.reply.value, tuple(x[0] for x in right))
+    return Failing(f"{says} {entries}.", tuple(whole), compared, example)
 
 
 def _compared(ask: Ask, part: int, mine: Array, its: Array) -> Compared | None:
@@ -199,16 +204,16 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     That answers were looked up is said only where all are wrong, and each is one that
     another input has got.
     """
-    right = "The result is right for the inputs of every check, but not for"
+    right = "The result is right for the inputs that every check uses, but not for"
     if isinstance(S, Finding):
-        return Finding("some-inputs", f"{right} fresh ones. {S.message}")
+        return Finding("some-inputs", f"{right} new random inputs. {S.message}")
     S = taken(asked.ask, asked.fresh, S)
     T = right_answers(asked.ask, asked.fresh)
     wrong = asked.ask.gaps(S, T) > asked.ask.near
-    says = f"{right} {int(wrong.sum())} of {len(wrong)} fresh ones."
+    says = f"{right} {int(wrong.sum())} of {len(wrong)} new random inputs."
     if wrong.all() and _only_known(main, S):
         return Finding("looked-up", f"{says} The answers do not depend on the inputs.")
-    some = "Some inputs take another branch of your function."
+    some = "Do some inputs take another branch of your function?"
     return Finding("some-inputs", says if wrong.all() else f"{says} {some}")
 
 

@@ -45,7 +45,11 @@ def by_results(m: Matcher) -> Finding | None:
         return None
     says = [
         f"{capitalised(kinds[j].called or f'result {j + 1}')}: "
-        + (f"{told[j].says.rstrip('?')}." if j in told else "it is wrong, too.")
+        + (
+            f"{told[j].says.rstrip('?')}."
+            if j in told
+            else "this result is wrong, too."
+        )
         for j in sorted(wrong, key=lambda j: j not in told)
     ]
     slug = "+".join(dict.fromkeys(one.slug for one in told.values()))

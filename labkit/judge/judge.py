@@ -72,8 +72,13 @@ def judge(asked: Asked, source: str = "", names: Sequence[str] = ()) -> Verdict:
         if verdict.status != "passed" and verdict.mistake not in NO_CALL:
             failed = attempt(failing_call, asked, names, otherwise=Failing())
             measured = verdict.measured + failed.whole
-            told_of = {"call": failed.call, "compared": failed.compared}
-            verdict = replace(verdict, measured=measured, **told_of)
+            verdict = replace(
+                verdict,
+                measured=measured,
+                call=failed.call,
+                compared=failed.compared,
+                example=failed.example,
+            )
     if verdict.status in ("passed", "todo"):
         return verdict
     return replace(verdict, message=f"{verdict.message} {told(stopped)}".strip())
@@ -563,9 +568,9 @@ def _all_the_same(m: Matcher) -> Finding | None:
     off = kind.largest_error(S, m.T[i])
     square = S.ndim == 3 and S.shape[1] == S.shape[2]
     if square and np.array_equal(S[0], np.eye(S.shape[1])):
-        says = f"Your function returns the identity for every input. {off}"
+        says = f"Your function returns the identity matrix for every input. {off}"
         return Finding("always-the-identity", says)
-    says = "The answer is the same for every input, so it does not depend on the input."
+    says = "Your result is the same for every input, but it should depend on the input."
     return Finding("ignores-its-input", f"{says} {off}")
 
 

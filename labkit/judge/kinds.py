@@ -114,7 +114,8 @@ class Kind:
 
     def _misfit(self, got: tuple[int, ...], values: Sequence[Any]) -> Finding:
         expected = self.expected
-        if None not in self.shape and str(self.shape) not in expected:
+        told = str(self.shape), "x".join(map(str, self.shape))
+        if None not in self.shape and not any(one in expected for one in told):
             expected += f", shape {self.shape}"
         if reason := self.why_shape(got):
             expected += f": {reason}"
@@ -122,7 +123,8 @@ class Kind:
         with contextlib.suppress(ValueError):  # one has parts of different shapes
             fit = sum(self.fits(np.asarray(value).shape) for value in values)
             often = f" in {len(values) - fit} of {len(values)} calls" if fit else ""
-        says = f"Your function returns shape {got}{often}; expected {expected}."
+        what = f"an array of shape {got}" if got else "a single number"
+        says = f"Your function returns {what}{often}; expected {expected}."
         return Finding("shape", says)
 
     def numbers(self, value: Any) -> Array:
@@ -146,7 +148,7 @@ class Kind:
             got: the shape of the first.
             right: the right one, of as many axes or of others.
         """
-        return "Your function returns a wrong shape"
+        return "Your function returns an array of the wrong shape"
 
     def _sent(self, answer: Array) -> Any:
         return answer if np.ndim(answer) else float(answer)
@@ -242,19 +244,32 @@ class Vector(Kind):
         empty = np.flatnonzero(off & ~S.any(axis=0))
         same = None not in self.shape  # else the shorter are filled up with 0
         if same and len(S) > 1 and 0 < len(empty) < len(off):
-            where = capitalised(listed([(self.names or counted)[i] for i in empty]))
-            says = f"{where} {'are' if len(empty) > 1 else 'is'} 0 every time. It is "
-            return Finding("entries-empty", f"{says}off by up to {self.apart(S, T)}.")
+            where = _entries(self.names, counted, empty)
+            says = (
+                f"{capitalised(where)} {'are' if len(empty) > 1 else 'is'} 0 in every"
+            )
+            off_by = f"The largest error is {self.apart(S, T)}."
+            return Finding("entries-empty", f"{says} call. {off_by}")
         if not same and _only_the_last(gap(S, T) > RIGHT * self.scale, S, T):
             says = "All entries are right except the last one, which is off by up to "
             return Finding("few-entries-off", f"{says}{self.apart(S, T)}.")
         if not 0 < off.sum() <= (max(1, len(off) // 3) if same else 1):
             return Finding("off", f"The result is off by up to {self.apart(S, T)}.")
-        names = [f"{name}'s" for name in self.names] or counted
-        where = " and ".join(names[i] for i in np.flatnonzero(off))
+        where = _entries(self.names, counted, np.flatnonzero(off))
         says = f"All entries are right except {where}. The largest error is "
         says += f"{self.apart(S, T)}."
         return Finding("few-entries-off", says)
+
+
+def _entries(names: Sequence[str], counted: Sequence[str], at: Any) -> str:
+    """Return entries of a vector in words: "the entry for joint1", "the mass"."""
+    if not names:
+        return " and ".join(counted[i] for i in at)
+    if all(names[i].startswith("the ") for i in at):
+        return listed([names[i] for i in at])
+    return (
+        f"the entr{'y' if len(at) == 1 else 'ies'} for {listed([names[i] for i in at])}"
+    )
 
 
 def _only_the_last(wrong: Array, S: Array, T: Array) -> bool:
@@ -284,7 +299,9 @@ def one_factor(kind: Kind, S: Array, T: Array) -> Finding | None:
     which = "Every entry of the result" if S.ndim > 1 else "The result"
     says = f"{which} is {say_factor(factor)} times the correct value in every call."
     if kind.unit and any(np.isclose(factor, other) for other in OF_UNITS):
-        says += f" Is it in another unit? The function should return {kind.unit}."
+        says += (
+            f" Is your result in another unit? The function should return {kind.unit}."
+        )
     return Finding("one-factor-off", says)
 
 
@@ -333,8 +350,9 @@ def few_told(where: str, wrong: Array, off: str) -> Finding:
     """
     if 2 * wrong.any(axis=1).sum() < len(wrong):
         says = (
-            f"Some calls are right. In the others, only this is wrong: {where}, off by"
+            "The result is right in some calls. In the others, all entries are right "
+            f"except {where}."
         )
-        return Finding("few-entries-off", f"{says} up to {off}.")
+        return Finding("few-entries-off", f"{says} The largest error is {off}.")
     says = f"All entries are right except {where}. The largest error is {off}. Look for"
-    return Finding("few-entries-off", f"{says} a wrong sign, letter or factor.")
+    return Finding("few-entries-off", f"{says} a wrong sign, variable or factor.")

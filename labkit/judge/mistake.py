@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from labkit.base.exchange import Question
 from robo47.checks import Array
 
 REDONE = "the reference solution with this mistake"
@@ -45,6 +46,7 @@ class Verdict:
     call: str = ""  # the call that failed, in a line, with theirs and the right answer
     # The matrix that this call returned, where some of its entries are right.
     compared: "Compared | None" = field(default=None, compare=False)
+    example: "Example | None" = field(default=None, compare=False)  # that call itself
 
 
 class Compared(NamedTuple):
@@ -53,6 +55,14 @@ class Compared(NamedTuple):
     returned: Array  # (m, n)
     expected: Array  # (m, n)
     wrong: NDArray[np.bool_]  # (m, n), whether an entry is wrong
+
+
+class Example(NamedTuple):
+    """A call with a wrong answer, from which a picture can be drawn."""
+
+    question: Question
+    returned: Any = None  # as it came; None where it stopped
+    right: tuple[Array, ...] = ()  # per result; () where many answers are right
 
 
 @dataclass(frozen=True)

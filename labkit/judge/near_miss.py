@@ -30,10 +30,10 @@ def explain(S: Array, T: Array) -> Finding:
     about = f"about {size:.0e}" if inside else f"{off:.1e}"
     why = (
         "Float32, a difference quotient, a small damping or a loop that stops too "
-        "early leaves such an error."
+        "early can cause such an error."
         if inside
-        else "Is a number rounded (3.14 or 0.707, typed by hand), a derivative a "
-        "difference quotient, a search stopped too early, or a small value set to 0?"
+        else "Does your code use a rounded number such as 3.14 or a difference "
+        "quotient, stop a search too early, or set a small value to 0?"
     )
     return Finding(
         "rounded-somewhere",
@@ -81,13 +81,13 @@ def in_common(S: Array, T: Array) -> str:
     if not wrong.any():
         return ""
     if (np.abs(np.abs(S) - np.abs(T)) <= tiny).all():
-        return " Every number is right except for its sign."
+        return " Every entry has the right absolute value, but some signs are wrong."
     if found := one_rule(S, T, wrong):
         return found
     if about:
         return (
-            " The error is below 1 % everywhere. Is a constant rounded, or a part of "
-            "the formula only approximate?"
+            " All relative errors are below 1 %. Is a constant rounded, or is a part "
+            "of the formula only an approximation?"
         )
     mixed = np.abs(np.sort(S, axis=1) - np.sort(T, axis=1)) <= tiny.max(
         1, keepdims=True
@@ -113,7 +113,7 @@ def _in_another_order(S: Array, T: Array, wrong: Array, shape: Sequence[int]) ->
             return " In every wrong call the result is the transpose of the right one."
     if len(shape) > 2 and not wrong.all():
         return ""  # an order that is right in some calls is none
-    return " The numbers are right, but they are in the wrong order."
+    return " The numbers are right, but their order is wrong."
 
 
 def one_rule(S: Array, T: Array, wrong: Array) -> str:
@@ -131,12 +131,12 @@ def one_rule(S: Array, T: Array, wrong: Array) -> str:
     if np.abs(off - off[0]).max() <= near and np.ptp(T, axis=0).max() > near:
         return (
             f" The error is the same in every call, {np.abs(off).max():.3g} in one "
-            "entry: a constant term is missing, or there is one too many."
+            "entry. Is a constant term missing, or is there one too many?"
         )
     limit = float(np.abs(S).max())
     cut = np.abs(S - np.clip(T, -limit, limit)).max() <= near
     if cut and wrong.any(axis=1).sum() >= 2:
-        return f" It is the right answer, clamped at {limit:.4g}."
+        return f" Your result equals the right result, clamped at {limit:.4g}."
     return _a_factor_each(S, T)
 
 
@@ -155,6 +155,6 @@ def _a_factor_each(S: Array, T: Array) -> str:
     if np.abs(factor).min() == 0.0 or np.isclose(low, high, rtol=1e-3):
         return ""
     return (
-        " In each answer all entries are wrong by one common factor, which changes "
-        f"from input to input ({low:.3g} to {high:.3g}): look for such a factor."
+        " In each call, all entries are wrong by one factor, which differs between "
+        f"calls ({low:.3g} to {high:.3g}). Look for a factor that depends on the input."
     )

@@ -148,7 +148,7 @@ def _of_a_matrix(x: Array) -> Iterator[Neutral]:
     if x.shape == (4, 4) and rigid(x[None]):
         yield from _of_a_pose(x)
     elif x.shape == (3, 3) and rigid(x[None]):
-        yield Neutral("{} is the identity", np.eye(3), _is_identity)
+        yield Neutral("{} is the identity matrix", np.eye(3), _is_identity)
     elif square:
         diagonal = np.diag(np.diag(x))
         yield Neutral(
@@ -157,7 +157,7 @@ def _of_a_matrix(x: Array) -> Iterator[Neutral]:
             lambda v: len(v) == v.shape[1] and not (v - np.diag(np.diag(v))).any(),
             tuple(scaled(diagonal, s) for s in _SEVERAL[1:]),
         )
-        yield Neutral("{} is the identity", np.eye(len(x)), _is_identity)
+        yield Neutral("{} is the identity matrix", np.eye(len(x)), _is_identity)
         yield Neutral("{} is 0", np.zeros_like(x), lambda v: not v.any())
     else:
         columns = [x * (np.arange(x.shape[1]) == i) for i in range(x.shape[1])]

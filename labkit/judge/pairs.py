@@ -31,7 +31,7 @@ from robo47.checks import Array
 
 # What one mistake alone leaves right, two need not: "all is right except that ...".
 _BUT = re.compile(
-    r"^(?:[^;:]*?\b(?:is|are) right(?: except that|, but|;)"
+    r"^(?:[^;:]*?\b(?:is|are) (?:right|correct)(?: except that|, but|;)"
     r"|right [^;,:]*[;,](?: but)?) "
 )
 # Between what a function does and the rule; "x . H x" is no end of a sentence.

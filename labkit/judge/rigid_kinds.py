@@ -61,7 +61,7 @@ class Pose(Kind):
 
     shape: tuple[int, ...] = (4, 4)
     # What its rotation does when it is transposed.
-    wrong_way: str = "rotates in the opposite sense"
+    wrong_way: str = "rotates in the opposite direction"
     expected = "a 4x4 matrix"
     misfits: ClassVar = {
         (3, 4): "the bottom row (0, 0, 0, 1) is missing",
@@ -85,8 +85,10 @@ class Pose(Kind):
         (R, t), (R_true, t_true) = split(S), split(T)
         if (off := _bottom(S)).max() > NEAR:
             row = ", ".join(f"{x:z.3g}" for x in S[np.argmax(off), 3])
-            says = f"The bottom row is ({row}), not (0, 0, 0, 1), so it is not a pose."
-            return Finding("bottom-row", says)
+            says = (
+                f"The bottom row is ({row}), not (0, 0, 0, 1), so the matrix is not a "
+            )
+            return Finding("bottom-row", f"{says}pose.")
         t_off = say_mm(millimetres(t, t_true))
         if difference(R, R_true).max() <= RIGHT and t_off != "0":
             says = "R is right everywhere, but the translation is off by up to"
@@ -117,13 +119,13 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
         return Finding(
             "not-orthonormal",
             "R is not a rotation: its columns are not unit vectors at right angles. "
-            f"(R R^T differs from I by {off:.2g}{size}.)",
+            f"(R R^T differs from the identity matrix by {off:.2g}{size}.)",
         )
     X = np.abs(T.mT @ S)
     if matches(X, np.broadcast_to(np.round(X[0]), X.shape)):
         return Finding(
             "axes-mixed-up",
-            "R's columns are the right axes, but swapped or with the wrong sign. "
+            "The columns of R are the right axes, but swapped or with the wrong sign. "
             f"(det R is {np.linalg.det(S[0]):z.0f}.)",
         )
     if mirrored := np.sum(np.linalg.det(S) < 0.0):

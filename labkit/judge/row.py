@@ -80,7 +80,8 @@ def inside(where: str, says: str) -> str:
     if inner[1] == "your code":
         own = where.replace("in `", "in your `", 1)
         return own + says[inner.end() :]
-    return f"in {inner[1]} of {where[3:]}{says[inner.end() :]}"
+    link = "in" if " of " in inner[1] else "of"  # not a row of "of"
+    return f"in {inner[1]} {link} {where[3:]}{says[inner.end() :]}"
 
 
 class Row:

@@ -29,7 +29,7 @@ SAYS = {
     "order": "two operands are in the wrong order",
     "left-out": "a part of the formula is missing",
     "operation": "one operator is wrong",
-    "sign-lost": "a sign is lost, because an absolute value is taken",
+    "sign-lost": "a sign is lost, because the code takes an absolute value",
     "name": "one variable is used where another belongs",
     "index": "an index or a range is wrong",
     "number": "a number in the formula is wrong",
@@ -93,7 +93,7 @@ def _of_the_formula(m: Any, mutant: Mutant) -> str:
     says = told(m, mutant)
     if tells(mutant) or own_line(m, mutant) or known_text(m, mutant):
         return says
-    return f"your output equals the correct formula with one change: {says}"
+    return f"your code gives the result of the correct formula with one change: {says}"
 
 
 def shows(m: Any, mutant: Mutant) -> bool:
@@ -182,6 +182,8 @@ def _of_an_expression(
             return OF_A_PART.get(type(node.op), "")
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
             return f"`{ast.unparse(node.func)}` is missing"
+    if mutant.kind == "factor" and (size := _size(new)):
+        return f"one value is {size} as large as it should be"
     if mutant.kind == "sign" and is_sum and (its := _own(node.right, line)):
         return f"the sign of `{its}` is reversed"
     if mutant.kind == "name" and isinstance(new, ast.Name) and (its := _own(new, line)):
@@ -193,6 +195,13 @@ def _of_an_expression(
         if all(pair):
             return f"`{pair[0]}` and `{pair[1]}` are in the wrong order"
     return ""
+
+
+def _size(new: ast.expr) -> str:
+    """Return "twice" of 2.0 * x, "half" of 0.5 * x, or ""."""
+    factor: Any = getattr(getattr(new, "left", None), "value", None)
+    product = isinstance(getattr(new, "op", None), ast.Mult)
+    return {2.0: "twice", 0.5: "half"}.get(factor, "") if product else ""
 
 
 def _another_name(mutant: Mutant, node: ast.expr, new: ast.Name, its: str) -> str:

@@ -61,7 +61,7 @@ def authors(m: Matcher, digits: bool = True) -> Finding | None:
         found.setdefault(one.slug, with_evidence(m, one))
     if len(found) == 2:
         either, other = found.values()
-        says = f"Two mistakes explain these numbers. Either: {either.message} Or: "
+        says = f"Your numbers fit two different mistakes. Either: {either.message} Or: "
         return Finding(either.slug, says + other.message)
     return next(iter(found.values())) if len(found) == 1 else None
 

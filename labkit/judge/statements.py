@@ -8,15 +8,15 @@ from typing import Any, NamedTuple
 Lines = list[ast.stmt]
 Changed = tuple[Lines, str]  # other lines, and what is said of them
 OF_A_LOOP = {
-    "[:-1]": "a loop leaves out its last element",
-    "[1:]": "a loop leaves out its first element",
+    "[:-1]": "a loop skips its last element",
+    "[1:]": "a loop skips its first element",
     "[::-1]": "a loop runs in the reverse order",
 }
 FAR_OF_A_LOOP = {
     "[:1]": "a loop stops after its first element",
-    "[-1:]": "a loop uses its last element only",
+    "[-1:]": "a loop uses only its last element",
     "[:2]": "a loop stops after two elements",
-    "[::2]": "a loop leaves out every second element",
+    "[::2]": "a loop skips every second element",
 }
 
 
@@ -94,7 +94,10 @@ def _far(body: Lines, at: int, line: ast.stmt) -> Iterator[Changed]:
     if isinstance(line, ast.For | ast.While):
         for new, says in _other_loops(body, at, line):
             yield [*before, new, *after], says
-        yield [*before, *line.body, *after], "a loop is missing: its body runs once"
+        yield (
+            [*before, *line.body, *after],
+            "a loop is missing, so its body runs only once",
+        )
         yield [*before, line, line, *after], "a loop runs twice"
     if isinstance(line, ast.For):
         for new, says in _over_some(line, FAR_OF_A_LOOP):
@@ -106,7 +109,9 @@ def _far(body: Lines, at: int, line: ast.stmt) -> Iterator[Changed]:
     if isinstance(line, ast.Continue | ast.Break):
         stops = isinstance(line, ast.Continue)
         other = ast.Break() if stops else ast.Continue()
-        says = "a loop ends where it should go on" if stops else "a loop does not end"
+        says = (
+            "a loop ends where it should continue" if stops else "a loop does not end"
+        )
         yield [*before, other, *after], says
     if isinstance(line, ast.Assign | ast.AugAssign):
         yield [*before, line, line, *after], "a step is done twice"
@@ -128,18 +133,24 @@ def _early_return(before: Lines, line: Any, after: Lines) -> Iterator[Changed]:
 
 def _other_loops(body: Lines, at: int, loop: Any) -> Iterator[tuple[ast.stmt, str]]:
     """Yield a loop that ends after one pass, returns in it, or starts anew in each."""
-    yield _with(loop, [*loop.body, ast.Break()]), "a loop stops after its first pass"
+    yield (
+        _with(loop, [*loop.body, ast.Break()]),
+        "a loop stops after its first iteration",
+    )
     after = body[at + 1 : at + 2]
     if after and isinstance(after[0], ast.Return):
         inside = _with(loop, [*loop.body, after[0]])
-        yield inside, "`return` stands inside the loop, so it stops after one pass"
+        yield (
+            inside,
+            "`return` is inside the loop, so the loop stops after one iteration",
+        )
     carried = _stored(loop.body)
     for line in body[:at]:
         if isinstance(line, ast.Assign) and carried & _stored([line]):
             reset = _with(loop, [line, *loop.body])
-            yield reset, "a value is reset in every pass of a loop"
+            yield reset, "a value is reset in every iteration of a loop"
             stale = _with(loop, _stale(loop.body, line))
-            yield stale, "a loop uses a value from before the loop in every pass"
+            yield stale, "every iteration of a loop uses a value from before the loop"
 
 
 def _stale(lines: Lines, first: ast.Assign) -> Lines:
@@ -189,4 +200,7 @@ def _instead_of_adding(line: ast.AugAssign) -> Iterator[tuple[ast.stmt, str]]:
         minus = ast.AugAssign(line.target, ast.Sub(), value)
         yield minus, "a term is subtracted instead of added"
     only = ast.Assign([line.target], value, lineno=line.lineno)
-    yield only, "a sum keeps its last term only, because it is assigned, not added"
+    yield (
+        only,
+        "a sum keeps only its last term, because the term is assigned, not added",
+    )

@@ -1,29 +1,33 @@
 """Sensitivity of a guide's numbers: each constant is doubled, measured, explained.
 
-A day's `constants.py` lists them. A number is a function whose arguments are all the
-constants that it could depend on; their defaults are what the lab uses:
+A day's `constants.py` is a table of them. A number is a function, and below its name
+are all the constants that it could depend on, one per line. A constant is an argument
+of the function, whose default is the lab's value, or a constant of the lab, written in
+capitals, which the table itself changes for a while:
 
-    numbers = Numbers(stiffness="the springs have {} N m/rad", step="a step of {} s")
+    numbers = Numbers(LAB, KP="the springs have {} N m/rad", step="a step of {} s")
 
-    @numbers.add(
-        "joint 4 hangs low by", "{:.1f} mrad",
-        stiffness=times(0.5, "a spring twice as stiff holds the same torque at half"),
-        step=same("nothing moves any more when it is read"),
-    )
-    def sag(stiffness=LAB.KP, step=0.002):
+    @numbers.add("joint 4 hangs low by", "{:.1f} mrad",
+        KP=times(0.5, "twice the stiffness holds the same torque at half the angle"),
+        step=same("the arm is at rest"))
+    def sag(step=0.002):
         return ...
 
-Each argument is doubled, the others stay; what cannot be doubled says `to=` what it is
-turned. Where the number does not do what its effect says, that is a fault.
+Each constant is doubled alone. `to=` is another value for a constant that cannot be
+doubled. A number that does not change as its effect states is a fault.
 """
 
 import inspect
 import re
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from functools import cache, wraps
 from types import ModuleType
 from typing import Any, TypeVar
+
+import mujoco
+import numpy as np
 
 from labkit.lesson.day import Day
 from robo47.errors import Robo47Error
@@ -31,6 +35,7 @@ from robo47.paths import shown
 
 # A guide shows the table of a day with this command.
 TABLE_OF = "python scripts/constants.py {} | table"
+FACTOR = "× {}"  # in the words of a constant that is multiplied
 ROUNDING = 1e-8  # a smaller number is a rounding error
 Computed = TypeVar("Computed", bound=Callable[..., float])
 
@@ -142,13 +147,17 @@ class Measured:
 class Numbers:
     """The numbers of a day, in the order of its guide."""
 
-    def __init__(self, **constants: str) -> None:
-        """Begin a list.
+    def __init__(self, *modules: ModuleType, **constants: str) -> None:
+        """Begin a table.
 
         Args:
-            constants: each constant in words, with {} for its value.
+            modules: the lab and the modules whose constants in capitals are changed.
+            constants: each constant in words, with {} for its value; with × {} for the
+                factor by which a constant of the modules is changed.
         """
+        self.modules = modules
         self.constants = constants
+        self._changed = ""  # the module's constant that is changed, and its value
         self.all: list[Number] = []
 
     def add(
@@ -159,7 +168,8 @@ class Numbers:
         Args:
             name: what it is, in words that a reader of the guide understands.
             form: how it is printed, with its unit: "{:.1f} mm".
-            effects: of each argument of the function that computes it.
+            effects: of each argument of the function that computes it, and of each
+                constant of the modules that it uses.
 
         Raises:
             Robo47Error: an argument has no effect or no words, or the other way round.
@@ -167,15 +177,29 @@ class Numbers:
 
         def added(compute: Computed) -> Computed:
             arguments = inspect.signature(compute).parameters
-            for what, known in (("effect", effects), ("words", self.constants)):
-                if missing := [one for one in arguments if one not in known]:
+            for what, asked, known in (
+                ("effect", arguments, effects),
+                ("words", {**arguments, **effects}, self.constants),
+            ):
+                if missing := [one for one in asked if one not in known]:
                     raise Robo47Error(f"{name!r}: no {what} of {missing[0]}")
-            if unknown := [one for one in effects if one not in arguments]:
-                raise Robo47Error(f"{name!r}: its function takes no {unknown[0]}")
+            own = [one for one in effects if one not in arguments]
+            if unknown := [one for one in own if not self._with(one)]:
+                raise Robo47Error(f"{name!r}: nothing of it is called {unknown[0]}")
             self.all.append(Number(name, form, compute, effects))
             return compute
 
         return added
+
+    def cached(self, compute: Callable[..., Any]) -> Callable[..., Any]:
+        """Return a helper that computes nothing twice, as `functools.cache` does.
+
+        A module's constant that is changed counts as an argument.
+        """
+        results = cache(lambda changed, *args, **more: compute(*args, **more))
+        return wraps(compute)(
+            lambda *args, **more: results(self._changed, *args, **more)
+        )
 
     def measured(self) -> Iterator[Measured]:
         """Yield each number, computed once as it is and once for each constant."""
@@ -184,12 +208,35 @@ class Numbers:
             turns = (self._turned(number, name) for name in number.effects)
             yield Measured(number, now, tuple(turns))
 
+    def _with(self, name: str) -> list[ModuleType]:
+        """Return the modules that have a constant in capitals of this name."""
+        found = [one for one in self.modules if name.isupper() and hasattr(one, name)]
+        # Two modules may give one name to different constants: the first one counts.
+        return [one for one in found if getattr(one, name) is getattr(found[0], name)]
+
     def _turned(self, number: Number, name: str) -> Turn:
-        effect = number.effects[name]
-        old = inspect.signature(number.compute).parameters[name].default
-        new = 2 * old if effect.to is None else effect.to
-        words = self.constants[name].format(f"{_short(old)} → {_short(new)}")
-        return Turn(name, words, number.compute(**{name: new}), effect)
+        effect, words = number.effects[name], self.constants[name]
+        if argument := inspect.signature(number.compute).parameters.get(name):
+            old = argument.default
+            new = 2 * old if effect.to is None else effect.to
+            then = number.compute(**{name: new})
+        else:
+            value = getattr(self._with(name)[0], name)
+            old = 1.0 if FACTOR in words else value
+            new = 2 * old if effect.to is None else effect.to
+            by = np.multiply(new, value) if FACTOR in words else new
+            with self._changing(name, by):
+                then = number.compute()
+        return Turn(name, words.format(f"{_short(old)} → {_short(new)}"), then, effect)
+
+    @contextmanager
+    def _changing(self, name: str, value: Any) -> Iterator[None]:
+        with ExitStack() as until:
+            for module in self._with(name):
+                until.enter_context(turned(module, **{name: value}))
+            self._changed = f"{name} = {value}"
+            until.callback(setattr, self, "_changed", "")
+            yield
 
 
 def _short(value: Any) -> str:
@@ -272,3 +319,35 @@ def turned(module: ModuleType, **values: Any) -> Iterator[None]:
         yield
     finally:
         vars(module).update(before)
+
+
+def altered(
+    model: mujoco.MjModel,
+    metre: float = 1.0,
+    masses: float = 1.0,
+    armature: float = 1.0,
+    damping: float = 1.0,
+    gravity: float = 1.0,
+    step: float = 0.0,
+) -> mujoco.MjModel:
+    """Return a model with these of its numbers multiplied, as if its file had them.
+
+    Args:
+        model: which is changed.
+        metre: all lengths; the inertias follow.
+        masses: masses and inertias of the bodies.
+        armature: inertias of the rotors.
+        damping: damping of the joints.
+        gravity: gravity.
+        step: the new time step, s; 0 keeps the old one.
+    """
+    for lengths in (model.body_pos, model.body_ipos, model.site_pos):
+        lengths[:] *= metre
+    model.body_mass[:] *= masses
+    model.body_inertia[:] *= masses * metre**2
+    model.dof_armature[:] *= armature
+    model.dof_damping[:] *= damping
+    model.opt.gravity[:] *= gravity
+    model.opt.timestep = step or model.opt.timestep
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+    return model

@@ -263,9 +263,9 @@ class Day:
         if len(found) != 1:
             rows = ", ".join(f"{m.check} ({m.metric})" for m in self.metrics)
             wanted = f"{check} ({metric})" if metric else check
+            which = "several [[metrics]] called" if found else "no [[metrics]] called"
             raise Robo47Error(
-                f"day {self.number}'s day.toml has {len(found)} metrics {wanted}; "
-                f"it has {rows}"
+                f"day {self.number}'s day.toml has {which} {wanted}; it has {rows}"
             )
         return found[0]
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from types import CodeType, ModuleType
 
 from labkit.lesson import day_mujoco  # noqa: F401 (a lab's import needs it)
-from labkit.lesson.day import Day
+from labkit.lesson.day import Day, find_day
 from labkit.lesson.sealed import opened
 from robo47.errors import Robo47Error
 from robo47.paths import shown
@@ -28,6 +28,11 @@ def read_script(path: Path) -> str:
 def lab_of(day: Day) -> ModuleType:
     """Return a day's complete lab as a module, one for all who ask; see `load_lab`."""
     return load_lab(day.source)
+
+
+def complete_lab(number: int) -> ModuleType:
+    """Return the complete lab of the day with this number, as `lab_of` does."""
+    return lab_of(find_day(number))
 
 
 def definition(text: str, name: str) -> ast.FunctionDef | None:

@@ -233,8 +233,8 @@ def _read(value: Any, name: str, kind: Any, least: int, where: str) -> Any:
     right: Any = dict if tables else parts[0]
     found = _right([] if tables and value is None else value, name, list, where)
     if len(found) < least:
-        size = "is empty" if tables else f"has {len(found)} entries; expected {least}"
-        raise Robo47Error(f"{where}: {name} {size}")
+        few = f"has too few entries ({len(found)}); expected at least {least}"
+        raise Robo47Error(f"{where}: {name} {'is empty' if tables else few}")
     for one in found:
         blank = isinstance(one, str) and not one.strip()
         if not isinstance(one, right) or isinstance(one, bool) or blank:

@@ -36,8 +36,8 @@ def draw(facts: Mapping[str, Any], tried: Attempt) -> Image.Image:
         tried: what came of the capstone.
     """
     counted = {
-        "functions": "own functions, right",
-        "numbers": "numbers, run again",
+        "functions": "functions of the student, correct",
+        "numbers": "numbers, computed again",
     }
     rows = [(facts[key], words, _whole(facts[key])) for key, words in counted.items()]
     film = None
@@ -45,7 +45,7 @@ def draw(facts: Mapping[str, Any], tried: Attempt) -> Image.Image:
         film = tried.capstone.film(tried.result)
         told = tried.capstone.summary(tried.result)
         alone = tried.counted.all
-        whose = "" if alone else f", with {tried.counted} functions their own"
+        whose = "" if alone else f", with {tried.counted} functions of the student"
         rows.append((told.number, told.of + whose, alone and not tried.result.failed))
     sheet = Image.new("RGB", SIZE, PAPER)
     if (picture := _arm(film)) is not None:

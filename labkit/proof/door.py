@@ -65,8 +65,8 @@ def render(pages: Sequence[tuple[Path, dict[str, Any]]]) -> str:
 def _card(path: Path, facts: dict[str, Any]) -> str:
     link = f'<a href="{escape(path.name)}">{escape(str(facts.get("heading", "")))}</a>'
     parts = (
-        ("functions", "functions theirs"),
-        ("numbers", "numbers, run again"),
+        ("functions", "functions by the student"),
+        ("numbers", "numbers, computed again"),
     )
     told = [f"{escape(str(facts[k]))} {what}" for k, what in parts if facts.get(k)]
     told += [escape(str(facts["capstone"]))] if facts.get("capstone") else []

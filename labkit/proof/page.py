@@ -127,11 +127,11 @@ def _tiles(proof: Proof) -> str:
     own = _counted(proof)
     fresh, mood = _fresh(proof)
     return html.tiles([
-        ("pass" if own.all else "", str(own), "functions theirs"),
+        ("pass" if own.all else "", str(own), "functions by the student"),
         (
             "pass" if right == len(numbers) else "",
             f"{right} of {len(numbers)}",
-            "numbers, run again here",
+            "numbers, computed again",
         ),
         *_capstone_tiles(proof.attempt),
         (mood, fresh, "a fresh clone"),
@@ -193,12 +193,12 @@ def _capstone(attempt: Attempt, place: str) -> str:
         return ""
     heading = escape(_heading(attempt.capstone))
     own = attempt.counted
-    whose = f"{own.own} of the {own.of} functions that it calls are theirs"
+    whose = f"{own.own} of the {own.of} functions that it calls are the student's"
     if not own.all:
         whose += "; the kit's own do the rest"
     if attempt.result is None:
         why = f"It stopped: {escape(attempt.stopped)}." if attempt.stopped else ""
-        words = why or "None of the functions that move the arm is theirs yet."
+        words = why or "None of the functions that move the arm is the student's yet."
         return html.section(heading, f"<p>{words}</p>")
     told = attempt.capstone.summary(attempt.result)
     by = _by(attempt.capstone.USES, attempt)
@@ -232,8 +232,10 @@ def _by(uses: Mapping[int, Sequence[str]], attempt: Attempt) -> str:
             f"<tr><td>{day}</td><td class=wide>{own or '–'}</td>"
             f"<td class=wide>{kits or '–'}</td></tr>"
         )
-    head = "<th>day</th><th>theirs</th><th>the kit's own</th>"
-    return html.folded("Theirs or the kit's", html.table(head, rows))
+    head = "<th>day</th><th>the student's</th><th>the kit's</th>"
+    return html.folded(
+        "The functions of the student and of the kit", html.table(head, rows)
+    )
 
 
 def _stayed(attempt: Attempt) -> str:
@@ -241,9 +243,10 @@ def _stayed(attempt: Attempt) -> str:
     if not attempt.stayed:
         return ""
     return (
-        f"<p class=muted>Theirs, but not run here: {_code(sorted(attempt.stayed))}."
+        "<p class=muted>By the student, but not run here:"
+        f" {_code(sorted(attempt.stayed))}."
         " They query a world that cannot be sent into the sandbox, so the kit's own"
-        " functions ran in their place. Theirs pass the check.</p>"
+        " functions ran in their place. They pass the check.</p>"
     )
 
 
@@ -277,9 +280,9 @@ def _numbers(days: Sequence[RunDay]) -> str:
     )
     head = "<th>day</th><th>number</th><th class=n>run again</th><th>limit</th>"
     about = (
-        f'<p class="muted">Run again: the day\'s lab with their functions, now, with'
-        f" {TRIALS} random inputs a step. Small: what their own run logged, by which"
-        " file.</p>"
+        f'<p class="muted">The day\'s lab ran again with the functions of the student,'
+        f" with {TRIALS} random inputs a step. Below each number is the one that the"
+        " student's own run logged.</p>"
     )
     table = html.table(head, rows) if rows else "<p>No day was begun.</p>"
     return html.section("The numbers", about, faults, _margins(days), table)
@@ -327,7 +330,8 @@ def _functions(days: Sequence[RunDay]) -> str:
             f"<tr><td>{one.day.number}</td><td class=wide>{_code(one.own) or '–'}</td>"
             f"<td class=wide>{rest or '–'}</td></tr>"
         )
-    head = "<th>day</th><th>theirs, and right</th><th>not theirs, or not right</th>"
+    head = "<th>day</th><th>the student's, and correct</th>"
+    head += "<th>not the student's, or not correct</th>"
     return html.section("Whose functions", html.table(head, rows))
 
 

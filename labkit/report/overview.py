@@ -32,6 +32,13 @@ STYLE = (
 td.squares, td.attempts { white-space: normal; line-height: 1; min-width: 90px; }
 td.day { white-space: normal; min-width: 110px; }
 td.wide { white-space: normal; min-width: 160px; }
+@media (max-width: 500px) {  /* a day has two lines, and says what its hints are */
+  table:has(.squares) tr:first-child { display: none; }
+  tr:has(> .squares) { display: grid; grid-template-columns: auto 1fr auto; }
+  tr:has(> .squares) > td { border-top: 0; padding: 0 12px 6px 0; min-width: 0; }
+  tr:has(> .squares) > .day { grid-column: 1 / -1; padding-top: 6px;
+    border-top: 1px solid var(--grid); }
+  td.hints:not(:empty)::before { content: "hints: "; color: var(--muted); } }
 """
 )
 ATTEMPTS = 60  # the most dots of a day
@@ -86,7 +93,7 @@ def _day(one: OwnDay, journal: Sequence[Entry]) -> str:
         f'<tr><td class=day><a href="#{number}">{number}</a>'
         f" <span class=muted>{escape(one.day.title)}</span></td>"
         f"<td class=squares>{tasks}</td><td class=attempts>{dots or '–'}</td>"
-        f"<td>{one.hints or '–'}</td></tr>"
+        f"<td class=hints>{one.hints or '–'}</td></tr>"
     )
 
 

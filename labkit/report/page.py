@@ -109,6 +109,7 @@ def _margins(series: Sequence[Series]) -> str:
 
 
 def _tiles(report: Report) -> str:
+    """Return the counters; those of 0 are no news, but for what passes."""
     tiles = [
         ("pass" if report.count("pass") else "none", report.count("pass"), "passing"),
         ("fail" if report.count("fail") else "none", report.count("fail"), "failing"),
@@ -118,7 +119,8 @@ def _tiles(report: Report) -> str:
         ("", report.rows, "rows"),
         ("fail" if report.look else "none", len(report.look), "lines to look at"),
     ]
-    return html.tiles((role, f"{count:,}", label) for role, count, label in tiles)
+    told = [tile for tile in tiles if tile[1] or tile[2] == "passing"]
+    return html.tiles((role, f"{count:,}", label) for role, count, label in told)
 
 
 def _title(day: int | None) -> str:

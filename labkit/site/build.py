@@ -77,6 +77,10 @@ _BELOW = re.compile(
     re.DOTALL,
 )
 _BESIDE = r"<msub><mover>\1\3</mover>\2</msub>"
+# A browser puts an index below the tail of its letter: the s of q_s a line too low.
+_TAIL = re.compile(r"(<msub(?:sup)?>\s*)(<mi>[gjpqyβγζηξρφχψμ]</mi>)")
+# The bars of a norm stand beside what they hold, also the first after a sign.
+_BAR = re.compile(r'<mo( stretchy="false")?>([|‖])</mo>')
 # A function's name stands off its neighbours, as TeX sets it: a sin x is no asin x.
 _CALL = "<mo>&ApplyFunction;</mo>"
 _NAME = re.compile(
@@ -159,6 +163,8 @@ def mathml(formula: str, as_block: bool = False) -> str:
     """Return a formula of LaTeX as MathML."""
     made = _BELOW.sub(_BESIDE, tex2mathml(formula, as_block=as_block))
     made = _ARGUMENT.sub(_CALL + _THIN, _NAME.sub(rf"\1{_THIN}", made))
+    made = _TAIL.sub(r'\1<mpadded depth="0em">\2</mpadded>', made)
+    made = _BAR.sub(r'<mo\1 lspace="0em" rspace="0em">\2</mo>', made)
     return made.replace(_MELTS, "")
 
 

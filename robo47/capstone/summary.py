@@ -40,11 +40,11 @@ def summary(result: Result) -> Summary:
         before=phase_lines(result.phases, result.seconds),
         after=lift,
         number=f"{result.place_mm:.1f} mm",
-        of="from the cube to its mark",
+        of="the distance of the cube from its target",
         came=f"The arm picks the cube up and puts it down {result.place_mm:.1f} mm from"
-        " its mark; 10 mm are allowed.",
-        way=f"On its way no joint is more than {result.joint_mrad:.2f} mrad off, the"
-        f" hand {result.line_mm:.1f} mm from its lines.",
+        " its target; the limit is 10 mm.",
+        way=f"The largest error of a joint is {result.joint_mrad:.2f} mrad. The hand"
+        f" is at most {result.line_mm:.1f} mm from its straight lines.",
     )
 
 

@@ -37,17 +37,17 @@ def summary(result: Result) -> Summary:
         felt = f"link {result.contact_link} feels it after {result.detection_ms:.0f} ms"
         felt = felt if result.detection_ms > 0.0 else "nothing is felt"
         after.append(f"pushed by 10 N in a second carry: {felt}")
-    came = "The arm finds a cube that nobody told it about, weighs it and puts it down"
+    came = "The arm locates a cube at an unknown place, weighs it and puts it down"
     return Summary(
         before=phase_lines(result.phases, result.seconds),
         after=after,
         number=f"{result.grams:.1f} g",
-        of="what the cube weighs, by the arm's own motors",
-        came=f"{came} behind a wall, {result.place_mm:.1f} mm from its mark."
+        of="the mass of the cube, measured by the arm's motors",
+        came=f"{came} behind a wall, {result.place_mm:.1f} mm from its target."
         if not result.stopped
         else f"The arm stops: {result.stopped}.",
-        way=f"It keeps {result.clearance_mm:.0f} mm from wall and table, and carries"
-        f" the cube at {result.speed:.1f} of its speed, as the weight allows.",
+        way=f"It keeps {result.clearance_mm:.0f} mm from the wall and the table. The"
+        f" weight of the cube limits its speed to {result.speed:.1f} of the maximum.",
         figures=figures(result),
     )
 
@@ -56,28 +56,32 @@ def figures(result: Result) -> list[tuple[str, str, str]]:
     """Return the measured quantities: (name, value with its unit, limit)."""
     known = 1e3 * result.mass
     found = [
-        ("seen, from where the cube stood", f"{result.seen_mm:.1f} mm", "under 3 mm"),
-        ("weighed", f"{result.grams:z.1f} g", f"{known:.0f} ± 1 g"),
         (
-            "clearance of the way as driven",
+            "error of the cube's estimated position",
+            f"{result.seen_mm:.1f} mm",
+            "under 3 mm",
+        ),
+        ("estimated mass", f"{result.grams:z.1f} g", f"{known:.0f} ± 1 g"),
+        (
+            "clearance of the path that was driven",
             f"{result.clearance_mm:.1f} mm",
             "over 0 mm",
         ),
-        ("speed of the carry, of the joints' limits", f"{result.speed:.1f}", ""),
+        ("speed of the carry, as a fraction of the limits", f"{result.speed:.1f}", ""),
         (
-            "torque felt in the carry that nobody commanded",
+            "external torque estimated in the carry",
             f"{result.residual:.2f} N m",
             f"under {THRESHOLD} N m",
         ),
     ]
     if not result.stopped:
         place = f"{result.place_mm:.1f} mm"
-        found.append(("put down, from its mark", place, "under 10 mm"))
+        found.append(("error of the final position", place, "under 10 mm"))
     if result.pushed:
-        after = "a push of 10 N in a second carry, felt after"
+        after = "a push of 10 N in a second carry, detected after"
         felt = result.detection_ms > 0.0
-        value = f"{result.detection_ms:.0f} ms" if felt else "not felt"
-        found.append((after, value, "felt"))
+        value = f"{result.detection_ms:.0f} ms" if felt else "not detected"
+        found.append((after, value, "detected"))
     return found
 
 

@@ -44,8 +44,8 @@ def _(theta):
     minus-twice: both of your sines have a minus sign, so the matrix is not orthonormal
     reflection: your minus sign is on a cosine instead of a sine, so the matrix is a
       reflection (det R = -1)
-    small-angle-formula: for small angles, your code replaces the sine by the angle and
-      the cosine by 1, which is only an approximation
+    small-angle-formula: for small angles, your code replaces the sine with the angle
+      and the cosine with 1, which is only an approximation
     z-lost: your last diagonal entry is 0, so the matrix sets the z component of every
       point to 0
     """
@@ -62,9 +62,9 @@ def _(theta):
 
 
 for axis, about in (("x", se3.Rx), ("y", se3.Ry)):
-    says = f"your rotation is about {axis}. It should be about z"
+    says = f"your code rotates about {axis} instead of z"
     row.wrong(f"turns-about-{axis}", says)(about)
-    says = f"your rotation is about -{axis}. It should be about z"
+    says = f"your code rotates about -{axis} instead of z"
     row.wrong(f"turns-about-{axis}", says)(lambda theta, about=about: about(-theta))
 
 

@@ -48,7 +48,8 @@ row = Row(
         HeldOut(
             "path-ignored",
             "Your pose is correct for the whole arm, but your function ignores `path`. "
-            "For the path to link4, it still returns the pose of the end effector.",
+            "For the path to link4, your function still returns the pose of the end "
+            "effector.",
             on(PANDA, PATH[:5], count=2),
             mistaken=lambda model, q, path: by_mujoco(model, q),
         ),
@@ -79,12 +80,12 @@ row.wrong(ends.fingertip_for_the_end)
 
 def stops_early(row, k, end):
     """Take the chains that end at link k, with its joint's rotation or without."""
-    says = f"your chain stops at link{k}. It should end at {end}"
+    says = f"your chain stops at link{k}. The chain should end at {end}"
     row.wrong("stops-early", says)(
         lambda model, q, path=PATH: fk(model, q, path[: k + 1])
     )
-    says = f"your chain stops at link{k} and omits the rotation of joint{k}. It should "
-    says += f"end at {end}"
+    says = f"your chain stops at link{k} and omits the rotation of joint{k}. The chain "
+    says += f"should end at {end}"
     row.wrong("stops-early", says)(
         lambda model, q, path=PATH: fk(model, q, path[:k]) @ link(model, path[k][0])
     )
@@ -102,7 +103,7 @@ def _(model, q, path=PATH):
     """home-whatever-q: your code does not use `q` and always returns the pose for the
       ready configuration
     ready-subtracted: your code subtracts the angles of the ready configuration from
-      `q`, but each joint should rotate by its entry in `q`
+      `q`. Each joint should rotate by its entry in `q`
     """
     angles = {
         "home-whatever-q": READY_Q,

@@ -3,14 +3,14 @@
 import mujoco
 import numpy as np
 
-from labkit.lesson.constants import Numbers, between, same, times
-from labkit.lesson.day import find_day
-from labkit.lesson.lab_module import lab_of
+from labkit.lesson.constants import Numbers, altered, between, same, times
+from labkit.lesson.lab_module import complete_lab
 from robo47 import panda, verify
 
-LAB = lab_of(find_day(1))
+LAB = complete_lab(1)
 
 numbers = Numbers(
+    LAB,
     metre="the unit of length, every pos in the file: × {}",
     quat="norm of the file's quaternions: × {}",
     q="READY_Q: × {}",
@@ -18,15 +18,14 @@ numbers = Numbers(
     angle="T_extra rotates by {} degrees",
     step="T_extra translates by {} m",
     trials="random configurations: {}",
-    seed="SEED: {}",
+    SEED="SEED: {}",
     gravity="gravity: × {}",
 )
 
 
 def arm(metre=1.0, quat=1.0):
     """Return the arm in another unit of length, with quaternions of another norm."""
-    model = panda.load("panda_nohand")
-    model.body_pos[:] *= metre
+    model = altered(panda.load("panda_nohand"), metre)
     model.body_quat[:] *= quat
     return model
 
@@ -38,41 +37,31 @@ def at_ready(metre, quat, base, q=1.0):
     return LAB.compose_fk(arm(metre, quat), angles)
 
 
-@numbers.add(
-    "height of the end effector in the ready configuration", "{:.4f} m",
+@numbers.add("height of the end effector in the ready configuration", "{:.4f} m",
     metre=times(2.0, "the height is a sum of lengths"),
     quat=same("a quaternion is normalised before it is used"),
     base=same("joint 1 rotates about the vertical axis", to=1.0),
-    q=between(-1.0, 0.5, "with twice the joint angles the hand is below the base"),
-)  # fmt: skip
+    q=between(-1.0, 0.5, "with twice the joint angles the hand is below the base"))
 def height(metre=1.0, quat=1.0, base=0.0, q=1.0):
-    """Return the height of the hand."""
     return at_ready(metre, quat, base, q)[2, 3]
 
 
-@numbers.add(
-    "largest |by hand - MuJoCo| at random configurations", "{:.1e}",
+@numbers.add("largest |by hand - MuJoCo| at random configurations", "{:.1e}",
     trials=same("each of the errors is a rounding error"),
-    seed=same("the same holds for other random configurations", to=48),
+    SEED=same("the same holds for other random configurations", to=48),
     metre=same("with longer links all errors are still rounding errors"),
-    gravity=same("the pose is a function of the joint angles alone"),
-)  # fmt: skip
-def by_hand(trials=100, seed=LAB.SEED, metre=1.0, gravity=1.0):
-    """Return the largest error of compose_fk; the lab evaluates ten times as many."""
+    gravity=same("the pose is a function of the joint angles alone"))
+def by_hand(trials=100, metre=1.0, gravity=1.0):
     model = arm(metre)
     model.opt.gravity[:] *= gravity
-    return LAB.own_errors(model, verify.random_q(model, trials, seed)).max()
+    return LAB.own_errors(model, verify.random_q(model, trials, LAB.SEED)).max()
 
 
-@numbers.add(
-    "position error with quaternions read as (x, y, z, w)", "{:.2f} m",
+@numbers.add("position error with quaternions read as (x, y, z, w)", "{:.2f} m",
     metre=times(2.0, "the rotations are wrong in the same way, and the links are twice as long"),
     quat=same("a quaternion is normalised before it is used"),
-    base=same("the misread quaternions turn link0 upside down and link1 upright again, so joint 1 still "
-              "rotates about the vertical axis", to=1.0),
-)  # fmt: skip
+    base=same("the misread quaternions turn link0 upside down and link1 upright again, so joint 1 still rotates about the vertical axis", to=1.0))
 def wrong_quat(metre=1.0, quat=1.0, base=0.0):
-    """Return the position error of the hand with this mistake."""
     model = arm(metre, quat)
     right = at_ready(metre, quat, base)
     model.body_quat[:] = np.roll(model.body_quat, 1, axis=1)  # w, x, y, z of x, y, z, w
@@ -90,52 +79,35 @@ def apart(angle, step, metre, base):
     return np.linalg.norm(right - left)
 
 
-@numbers.add(
-    "distance between the two products", "{:.4f} m",
+@numbers.add("distance between the two products", "{:.4f} m",
     step=between(1.1, 1.7, "the translation is twice as long, and the chord does not change"),
-    angle=between(1.2, 1.5, "the chord is 1.85 times as long, and the translation does "
-                  "not change"),
-    metre=between(1.5, 2.0, "the chord is twice as long, and the translation does not "
-                  "change"),
-    base=between(0.5, 2.0, "the tool's x axis is no longer opposite to the world's",
-                 to=1.0),
-)  # fmt: skip
+    angle=between(1.2, 1.5, "the chord is 1.85 times as long, and the translation does not change"),
+    metre=between(1.5, 2.0, "the chord is twice as long, and the translation does not change"),
+    base=between(0.5, 2.0, "the tool's x axis is no longer opposite to the world's", to=1.0))
 def order(angle=45.0, step=0.1, metre=1.0, base=0.0):
-    """Return the distance between the two products."""
     return apart(angle, step, metre, base)
 
 
-@numbers.add(
-    "distance between the products without the rotation", "{:.4f} m",
+@numbers.add("distance between the products without the rotation", "{:.4f} m",
     step=times(2.0, "one translation is forwards and one is backwards"),
     metre=same("without the rotation the position of the hand cancels"),
-    base=times(np.cos(0.5), "the two translations are no longer opposite: the distance is 0.2 m cos(q1 / 2)",
-               to=1.0),
-)  # fmt: skip
+    base=times(np.cos(0.5), "the two translations are no longer opposite: the distance is 0.2 m cos(q1 / 2)", to=1.0))
 def no_turn(step=0.1, metre=1.0, base=0.0):
-    """Return the distance of the two products without the rotation."""
     return apart(0.0, step, metre, base)
 
 
-@numbers.add(
-    "distance between the products without the translation", "{:.4f} m",
-    angle=times(np.sin(np.pi / 4) / np.sin(np.pi / 8),
-                "the length of the chord is 2 r sin(angle / 2)"),
+@numbers.add("distance between the products without the translation", "{:.4f} m",
+    angle=times(np.sin(np.pi / 4) / np.sin(np.pi / 8), "the length of the chord is 2 r sin(angle / 2)"),
     metre=times(2.0, "r is the distance between the hand and the axis of the base"),
-    base=same("a rotation about this axis does not change r", to=1.0),
-)  # fmt: skip
+    base=same("a rotation about this axis does not change r", to=1.0))
 def no_step(angle=45.0, metre=1.0, base=0.0):
-    """Return the distance of the two products without the translation."""
     return apart(angle, 0.0, metre, base)
 
 
-@numbers.add(
-    "link4 in the file, along x of link3", "{:.4f} m",
+@numbers.add("link4 in the file, along x of link3", "{:.4f} m",
     q=same("the position relative to link3 does not depend on the joint angles"),
-    metre=times(2.0, "the coordinate is a length"),
-)  # fmt: skip
+    metre=times(2.0, "the coordinate is a length"))
 def in_the_file(q=1.0, metre=1.0):
-    """Return the first number of link4's pos, as MuJoCo has it when the arm is at q."""
     model = arm(metre)
     data = mujoco.MjData(model)
     data.qpos[:] = q * LAB.READY_Q
@@ -144,11 +116,8 @@ def in_the_file(q=1.0, metre=1.0):
     return (link3.xmat.reshape(3, 3).T @ (data.body("link4").xpos - link3.xpos))[0]
 
 
-@numbers.add(
-    "link4 in the world, z", "{:.6f} m",
+@numbers.add("link4 in the world, z", "{:.6f} m",
     q=between(0.1, 0.95, "the joints between the base and link4 have rotated"),
-    metre=times(2.0, "the coordinate is a length"),
-)  # fmt: skip
+    metre=times(2.0, "the coordinate is a length"))
 def in_the_world(q=1.0, metre=1.0):
-    """Return the height of link4."""
     return LAB.link4_to_world(arm(metre), q * LAB.READY_Q)[2, 3]

@@ -48,7 +48,7 @@ def elsewhere(model, q, path=PATH):
     flange-turned-backwards: your position is correct, but your code rotates the flange
       in the wrong direction
     flange-turned-by-45: your position is correct, but your code rotates the flange by
-      45 degrees, which does not agree with the quaternion in the file
+      45 degrees. The quaternion in the file has another angle
     flange-not-moved: your rotation is correct, but your code omits the flange's offset
       from link7
     flange-twice: your code applies the transform from link7 to the end effector twice

@@ -44,13 +44,13 @@ def _(rng):
 @row.wrongs
 def _(T):
     """unchanged: your code returns T unchanged
-    T-transposed: your code transposes the whole 4x4 matrix. This inverts R but moves
-      the translation to the last row
+    T-transposed: your code transposes the whole 4x4 matrix. The transpose inverts R,
+      but it moves the translation to the last row
     t-only-negated: your rotation is correct, but your translation is -t. The
       translation of the inverse is expressed in the rotated frame, so rotate -t into
       that frame
     t-turned-forwards: your rotation is correct, but your code multiplies -t by R.
-      Multiply it by the inverse of R
+      Multiply -t by the inverse of R
     R-kept: your translation is correct, but your code does not invert R
     R-kept-t-negated: your code keeps R and only negates t, which is correct only for a
       pure translation
@@ -58,8 +58,8 @@ def _(T):
       rotation and in the translation
     all-signs: your code negates every entry, but the negative of a transform is not its
       inverse
-    minus-R: your code only negates R and t, but -R is a reflection (its determinant is
-      -1), not the inverse of R
+    minus-R: your code only negates R and t. The matrix -R is a reflection (det = -1),
+      not the inverse of R
     """
     R, t = split(T)
     return {

@@ -26,10 +26,13 @@ def slides_along_z(q):
     return pose(np.eye(3), np.array([0.0, 0.0, q]))
 
 
-row.reached_by("Rz", called={"theta": "the angle"})
+row.reached_by(
+    "Rz",
+    called={"theta = 0": "an angle of 0", "`theta`": "the angle", "theta": "the angle"},
+)
 # A joint does not move its body, so what is done to t changes nothing.
 row.of_answer(
-    of_a_pose("maps the parent to the body"),
+    of_a_pose("maps the parent frame to the body frame"),
     but=("t-in-last-row", "t-lost", "t-negated", "millimetres"),
 )
 

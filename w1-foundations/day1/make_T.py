@@ -24,7 +24,7 @@ def _(R, t):
     """move-then-turn: your code multiplies t by R. A pose first rotates a point and
       then adds t, so use t unchanged
     t-turned-back: your code multiplies t by the transpose of R, but t is already
-      expressed in the outer frame
+      expressed in the frame to which T maps. Use t unchanged
     type-of-R: your array has the data type of R. If R contains integers, as in
       `np.eye(3, dtype=int)`, the fractional parts of t are lost
     """

@@ -134,13 +134,14 @@ def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
 def _other_joints(model, q: Array, joint: str) -> Iterator[tuple[Finding, Array]]:
     yield (
         Finding(
-            "joint-skipped", f"{joint} does not rotate, because its angle has no effect"
+            "joint-skipped",
+            f"In your product, {joint} does not rotate: its angle has no effect",
         ),
         (np.eye(4)),
     )
     for _, other in PATH[1:-1]:
         if other != joint:
-            says = f"{joint} rotates by the angle of {other}"
+            says = f"In your product, {joint} rotates by the angle of {other}"
             yield Finding("joint-fed-another", says), turn(model, q, other)
     angles = q[:, model.joint(joint).qposadr[0]]
     for mistake in joint_T.row.ask.named:
@@ -152,7 +153,7 @@ def _wrong_angle(joint: str, X: Array) -> Finding | None:
     R = se3.Rz(np.arctan2(X[:, 1, 0], X[:, 0, 0]))
     if not matches(X, pose(R, np.zeros(3))):
         return None
-    says = f"{joint} rotates about its axis by the wrong angle"
+    says = f"In your product, {joint} rotates about its axis by the wrong angle"
     return Finding("joint-angle-off", says)
 
 

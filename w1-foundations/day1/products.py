@@ -48,15 +48,15 @@ def on_each_other(model, q, path=PATH):
     """last-step-in-the-world: your code adds the offset of `attachment` along the world
       axes, but this offset is expressed in the frame of the previous body
     last-step-on-the-left: your code multiplies the transform of `attachment` on the
-      left, which moves the whole arm. Multiply it on the right
+      left, which moves the whole arm. Multiply this transform on the right
     local-taken-for-world: your code uses the `pos` and `quat` of `attachment` as its
       pose in the world, but both are relative to the parent body
     offsets-summed: your rotation is correct, but your code adds the offsets from the
       file without rotating them. Each offset is expressed in the rotated frame of its
       parent
     point-with-w-0: your rotation is correct, but your code only rotates the offset of
-      `attachment` and omits the translation before it. A point needs 1, not 0, as its
-      fourth coordinate
+      `attachment` and omits the translation before this offset. A point has 1, not 0,
+      as its fourth coordinate
     inertial-frames: your code uses `ipos` and `iquat`, which describe a body's inertial
       frame. Use `pos` and `quat`, which describe the body frame
     inertial-turns: your code uses `iquat`, the orientation of a body's inertial frame.
@@ -95,7 +95,8 @@ def inertial(model, q, path, place):
 
 def offset_turned_too_late(model, q, path=PATH):
     """your rotation is correct, but your code updates the rotation before it adds the
-    link's offset. Add the offset first, rotated by the previous rotation"""
+    link's offset. Add the offset first, multiplied by the rotation before this
+    update"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         R = R @ L[:3, :3] @ J[:3, :3]

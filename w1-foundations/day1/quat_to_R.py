@@ -51,11 +51,11 @@ def by_squares(quat):
 UNNORMALISED = (by_ones, by_squares)  # the usual formulas: the same of a unit one
 NOT_NORMALISED = (
     "your code does not normalise the quaternion. Only a unit quaternion represents a "
-    "rotation, but (1, 1, 0, 0), for example, has norm 1.41"
+    "rotation, and (1, 1, 0, 0), for example, has norm 1.41"
 )
 XYZW_AND_NOT_NORMALISED = (
-    "your code reads the quaternion as (x, y, z, w), although w comes first, and does "
-    "not normalise the quaternion"
+    "your code reads the quaternion as (x, y, z, w), although w comes first, and it "
+    "does not normalise the quaternion"
 )
 
 
@@ -68,7 +68,7 @@ def _(quat):
     half-angle: your code rotates by half the angle. The component w is the cosine of
       half the angle, not of the angle
     short-ones-kept: your code normalises the quaternion only if its norm is above 1.
-      Also normalise a quaternion with a smaller norm
+      Quaternions with a smaller norm have to be normalised too
     factor-two-missing: your code omits the factor 2 in front of the products of
       components
     """

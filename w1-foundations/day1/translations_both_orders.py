@@ -65,19 +65,20 @@ HALVES = {
     "left-translation-lost": "your code omits the translation of the left factor",
     "right-translation-lost": "your code omits the translation of the right factor",
     "turned-backwards": "your code multiplies the right factor's translation by the "
-    "transpose of R. Multiply it by R itself",
+    "transpose of R. Use R itself",
     "wrong-vector-turned": "your code rotates the left factor's own translation "
     "instead of the right factor's translation",
-    "wrong-rotation": "your code rotates the right factor's translation by its own R. "
-    "Rotate it by the left factor's R",
+    "wrong-rotation": "your code rotates the right factor's translation by the right "
+    "factor's R. Use the left factor's R",
     "both-turned": "your code rotates the translations of both factors. Do not rotate "
     "the translation of the left factor",
-    "subtracted": "your code subtracts the left factor's translation. Add it",
+    "subtracted": "your code subtracts the left factor's translation instead of "
+    "adding it",
     "summed-by-columns": "your code multiplies R and the right factor's translation "
     "entry by entry (R * t) and sums the columns. Use R @ t",
     "summed-by-entries": "your expression R * t multiplies entry by entry. Use R @ t",
-    "diagonal-only": "your code multiplies the translation only by the diagonal of R. "
-    "Use R @ t, which uses all entries of R",
+    "diagonal-only": "your code multiplies the right factor's translation only by the "
+    "diagonal of R. Use R @ t, which contains all entries of R",
     "entries-of-4x4": "your code multiplies the two 4x4 matrices entry by entry "
     "(A * B). Use the matrix product",
 }
@@ -104,10 +105,10 @@ def halves(R_a, t_a, R_b, t_b):
 WHEN_READY = "in the ready configuration, where the lab asks, R is symmetric"
 for slug, says in HALVES.items():
     half = lambda *four, slug=slug: halves(*four)[slug]  # noqa: E731
-    row.wrong(slug, f"in both translations, {says}")(both(half))
+    row.wrong(slug, f"in both results, {says}")(both(half))
     same = WHEN_READY if slug == "turned-backwards" else ""
-    row.wrong(slug, f"in the first translation, {says}", hidden=same)(both(half, right))
-    row.wrong(slug, f"in the second translation, {says}")(both(right, half))
+    row.wrong(slug, f"in the first result, {says}", hidden=same)(both(half, right))
+    row.wrong(slug, f"in the second result, {says}")(both(right, half))
 
 
 def _other_order(R_a, t_a, R_b, t_b):
@@ -119,7 +120,8 @@ for which, two in (("first", (_other_order, right)), ("second", (right, _other_o
     row.wrong("same-order-twice", says)(both(*two))
 row.wrong(
     "orders-swapped",
-    "your two translations are swapped. The first belongs to T_world_ee @ T_extra",
+    "your two translations are swapped. The first translation belongs to "
+    "T_world_ee @ T_extra",
 )(both(_other_order))
 
 

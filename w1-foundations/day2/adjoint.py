@@ -28,8 +28,8 @@ def _(T):
       the two frames differ
     on-both-sides: both of your off-diagonal blocks are [p] R, but omega does not depend
       on v, so the upper right block should be 0
-    last-block-zero: your lower blocks are [p] and 0. They should be [p] R and R,
-      respectively
+    last-block-zero: your two lower blocks are [p] and 0. The lower blocks should be [p]
+      R and R
     R-turned-back: your code transposes R in every block. Use R itself
     transposed: your code returns the transpose of the adjoint, which maps wrenches
       instead of twists
@@ -51,7 +51,12 @@ def _(T):
 
 
 # Without the lever arm's sign.
-row.reached_by("skew", "in the matrix [p], ", but=["p-cross-w"], called={"w_": "p_"})
+row.reached_by(
+    "skew",
+    "in the skew-symmetric matrix [p], ",
+    but=["p-cross-w"],
+    called={"w_": "p_"},
+)
 
 
 @row.right  # Column by column, each lever arm a cross product.

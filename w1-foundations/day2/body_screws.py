@@ -23,11 +23,11 @@ def _(screws, M):
     """adjoint-of-M: your code uses the adjoint of M, which maps twists from the
       end-effector frame to the world frame. Use the adjoint of the inverse of M
     from-the-right: your adjoint is correct, but your code computes screws @ Ad. The
-      adjoint acts on column vectors, and each screw is a row
+      adjoint acts on column vectors, but each screw is a row of the array
     unchanged: your code returns the screws unchanged, still expressed in the world
       frame
-    transposed-for-inverse: your code transposes Ad(M), but the inverse of an adjoint is
-      not its transpose. An adjoint with [p] R in the upper right block gives the same
+    transposed-for-inverse: either your code transposes Ad(M) instead of inverting it,
+      or your adjoint has [p] R in the upper right block. Both mistakes give the same
       result
     no-lever-arm: your code only rotates the two halves of each screw, because the lower
       left block of your adjoint is 0. Does your code use M.T as the inverse of M?

@@ -79,8 +79,8 @@ row.of_argument("q", LEFT_OUT)
 for by in (1, -1):
     row.wrong(
         "alpha-of-the-neighbour",
-        "each row in your code uses the alpha of a neighbouring row. Tables in the "
-        "standard convention list alpha one row earlier, but this table does not",
+        "each row in your code uses the alpha of a neighbouring row. This table uses "
+        "Craig's convention, so use the alpha of the same row",
     )(lambda table, q, by=by: dh_fk(np.c_[np.roll(table[:, 0], by), table[:, 1:]], q))
 for names, order in (
     ("a, alpha, d", [1, 0, 2]),

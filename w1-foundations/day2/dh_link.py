@@ -44,13 +44,14 @@ def in_order(order, alpha, a, d, theta):
 def _(alpha, a, d, theta):
     """standard-formula: your matrix follows the standard convention, Rz Tz Tx Rx, but
       Franka's table follows Craig's convention, which rotates about x first
-    a-after-theta: your rotation is correct, but your translation by a comes after the
-      rotation about z. The translation by a should come before this rotation
-    d-along-the-old-z: your rotation is correct, but your translation by d comes before
-      the rotation about x. The translation by d should come after this rotation
+    a-after-theta: your rotation is correct, but your translation by `a` comes after the
+      rotation about z. The translation by `a` should come before this rotation
+    d-along-the-old-z: your rotation is correct, but your translation by `d` comes
+      before the rotation about x. The translation by `d` should come after this
+      rotation
     order-of-moves: your four factors are correct, but their order is wrong. The
-      translation by a belongs next to the rotation about x, and the translation by d
-      next to the rotation about z
+      translation by `a` belongs next to the rotation about x. The translation by `d`
+      belongs next to the rotation about z
     """
     orders = {
         "standard-formula": "zZXx",
@@ -75,7 +76,7 @@ for order in ("zxXZ", "XzxZ", "XzZx"):
 def _(alpha, a, d, theta):
     """both-turns-backwards: both of your rotations are in the wrong direction
     radians-taken-for-degrees: your code converts both angles from degrees to radians,
-      but they are already in radians
+      but both angles are already in radians
     alpha-forgotten: the argument `alpha` has no effect in your code
     theta-forgotten: the argument `theta` has no effect in your code
     """

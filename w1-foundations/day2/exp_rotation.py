@@ -43,32 +43,32 @@ def rodrigues(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """turns-backwards: your rotation is in the wrong direction, because the sine term
+    """turns-backwards: your code rotates in the wrong direction, because the sine term
       has the wrong sign
-    minus-square: your code subtracts the K K term, so the matrix is not orthonormal.
-      Add this term
-    square-missing: your code omits the K K term. Without this term, I + sin(theta) K is
-      a rotation only to first order
+    minus-square: your code subtracts the K^2 term instead of adding it, so the matrix
+      is not orthonormal
+    square-missing: your code omits the K^2 term. Without this term, the matrix is
+      orthonormal only to first order in theta
     sine-term-missing: your code omits the K term, so the rotations by theta and -theta
       are equal
-    identity-missing: your code omits the identity, but a rotation by 0 should be the
-      identity
-    cosine-for-one-minus-cosine: your factor of K K is the cosine, but this factor
+    identity-missing: your code omits the identity matrix, but a rotation by 0 should be
+      the identity matrix
+    cosine-for-one-minus-cosine: your factor of K^2 is the cosine, but this factor
       should be 0 at theta = 0
-    one-minus-sine: your factor of K K is 1 minus the sine, but this factor should be 0
+    one-minus-sine: your factor of K^2 is 1 minus the sine, but this factor should be 0
       at theta = 0
     sin-and-cos-swapped: your code swaps the sine and the cosine, so the matrix is not
       the identity at theta = 0
-    coefficients-swapped: your code swaps the factors of K and K K. The sine belongs to
-      K, and 1 - cos belongs to K K
-    first-order-only: your series ends after I + theta K, which is accurate only for
-      small angles
-    second-order-only: your series ends after the theta^2 term, but the series has
-      infinitely many terms
-    cosine-before-identity: your code multiplies the identity by the cosine. This factor
-      belongs to the form with axis axis^T, not to the form with K K
-    half-angle-not-squared: your factor of K K is 2 sin(theta / 2). It should be 1 -
-      cos, which equals 2 sin(theta / 2)^2
+    coefficients-swapped: your code swaps the factors of K and K^2. The factor of K
+      should be sin(theta), and the factor of K^2 should be 1 - cos(theta)
+    first-order-only: your series ends after the term theta K, so the matrix is accurate
+      only for small angles
+    second-order-only: your series ends after the theta^2 term, so the matrix is
+      accurate only for small angles
+    cosine-before-identity: your code multiplies the identity matrix by cos(theta). This
+      factor belongs to the formula with axis axis^T, not to the formula with K^2
+    half-angle-not-squared: your factor of K^2 is 2 sin(theta / 2). The factor should be
+      1 - cos(theta), which equals 2 sin(theta / 2)^2
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -93,12 +93,12 @@ def _(axis, theta):
 def _(axis, theta):
     """exp-by-entries: your code uses np.exp, which acts on each entry, but the matrix
       exponential is a series of matrix products
-    bracket-of-a-dyad: your last term is (1 - cos) axis axis^T. With this term, the
-      identity needs the factor cos
-    dyad-without-factor: your code omits the factor 1 - cos in front of axis axis^T, so
-      the matrix is not the identity at theta = 0
-    dyad-missing: your code omits the term (1 - cos) axis axis^T, so the rotation moves
-      its own axis
+    bracket-of-a-dyad: your last term is (1 - cos(theta)) axis axis^T. With this term,
+      the identity matrix needs the factor cos(theta)
+    dyad-without-factor: your code omits the factor 1 - cos(theta) in front of axis
+      axis^T, so the matrix is not the identity at theta = 0
+    dyad-missing: your code omits the term (1 - cos(theta)) axis axis^T, so your matrix
+      changes vectors along the axis
     always-about-z: your code rotates about z for every axis. Use the argument `axis`
     """
     K = skew(axis)
@@ -130,7 +130,10 @@ row.of_argument("theta", *OF_AN_ANGLE)
 
 # Without the sign of the angle.
 row.reached_by(
-    "skew", "in the matrix [axis], ", but=["p-cross-w"], called={"w_": "axis_"}
+    "skew",
+    "in the skew-symmetric matrix [axis], ",
+    but=["p-cross-w"],
+    called={"w_": "axis_"},
 )
 
 

@@ -70,11 +70,12 @@ def travelled(S, theta, one, first, second):
 
 @row.wrongs(hidden={"theta-wrapped": "the lab's angles are between -pi and pi"})
 def _(S, theta):
-    """twist-order: your code reads the halves as (v; omega), but omega comes first
+    """twist-order: your code reads the halves of the screw as (v; omega), but omega
+      comes first
     hinge-at-the-origin-forgotten: a screw with v = 0 causes no motion in your code, but
       such a screw represents a rotation about a line through the origin
-    turns-backwards: your motion is in the wrong direction. It equals the motion for
-      -theta
+    turns-backwards: your code computes the motion for -theta, which has the opposite
+      direction
     theta-wrapped: your code wraps theta to [-pi, pi], but the translation along the
       axis is not periodic
     """
@@ -92,19 +93,20 @@ def _(S, theta):
     """identity-for-theta: your rotation is correct, but the first term of your
       translation is v. The translation should be 0 at theta = 0
     sine-for-theta: your rotation is correct, but the first term of your translation is
-      sin(theta) v. For a pure translation it should be theta v
+      sin(theta) v. For a pure translation, the translation should be theta v
     exp-coefficients-swapped: your rotation is correct, but in the translation your code
-      swaps the factors of K and K K
-    as-in-the-rotation: your rotation is correct, but your translation has the factors
-      of the rotation, sin and 1 - cos. It needs the integrals of these factors
+      swaps the factors of K and K^2
+    as-in-the-rotation: your rotation is correct, but your translation uses the factors
+      of the rotation, sin(theta) and 1 - cos(theta). Use the integrals of these two
+      factors from 0 to theta
     travel-sign-of-K: your rotation is correct, but the K term of your translation has
       the wrong sign
-    travel-sign-of-KK: your rotation is correct, but the K K term of your translation
+    travel-sign-of-KK: your rotation is correct, but the K^2 term of your translation
       has the wrong sign
     travel-without-K: your rotation is correct, but your translation lacks the K term
-    travel-without-KK: your rotation is correct, but your translation lacks the K K term
+    travel-without-KK: your rotation is correct, but your translation lacks the K^2 term
     travel-K-for-KK: your rotation is correct, but the last term of your translation
-      contains K instead of K K
+      contains K instead of K^2
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -125,31 +127,31 @@ def _(S, theta):
 
 @row.wrongs
 def _(S, theta):
-    """R-times-v: your rotation is correct, but your translation is R v. It should be
-      the integral of the rotated velocity
+    """R-times-v: your rotation is correct, but your translation is R v. The translation
+      should be the integral of the rotated velocity
     R-times-theta-v: your rotation is correct, but your translation is theta R v. The
-      velocity rotates during the motion, so it has to be integrated
-    travel-on-a-line: your rotation is correct, but your translation is theta v, along a
-      straight line, while the path of a screw motion is curved
-    travel-is-v: your rotation is correct, but your translation is v for every theta. It
-      should be 0 at theta = 0
-    travel-turned: your rotation is correct, but your code also multiplies the
-      translation by R
+      velocity v rotates during the motion, so the translation is an integral over the
+      motion
+    travel-on-a-line: your rotation is correct, but your translation is theta v, a
+      straight line. The path of a screw motion with a rotation is curved
+    travel-is-v: your rotation is correct, but your translation is v for every theta.
+      The translation should be 0 at theta = 0
+    travel-turned: your rotation is correct, but your code also multiplies the complete
+      translation by R. Use the translation unchanged
     travel-over-theta: your rotation is correct, but your code divides the translation
       by theta
     moment-used-as-point: your code uses v as a point on the axis, but v is the velocity
-      of the point at the origin
+      of the body point at the origin
     pitch-forgotten: if omega is not 0, your code omits the translation along the axis
     pitch-without-theta: if omega is not 0, your code does not multiply the translation
       along the axis by theta
     hinges-only: your code omits the translation along the axis for every screw
     sign-of-the-point: your rotation is correct, but your point on the axis has the
-      wrong sign. The point is omega x v, and I - R times this point gives the
-      translation
+      wrong sign. The point of the axis nearest to the origin is omega x v
     slide-forgotten: a screw with omega = 0 causes no motion in your code, but such a
       screw represents a pure translation
-    slide-without-theta: in your code, a screw with omega = 0 translates by v. It should
-      translate by theta v
+    slide-without-theta: in your code, a screw with omega = 0 causes the translation v.
+      The translation should be theta v
     """
     omega = S[:3]
     v = S[3:]
@@ -186,8 +188,10 @@ def exp_by_entries(S, theta):
     return np.exp(bracket * theta)
 
 
-row.reached_by("skew", "in the matrix [omega], ", called={"w_": "omega_"})
-row.reached_by("exp_rotation", "in the rotation, ")
+row.reached_by(
+    "skew", "in the skew-symmetric matrix [omega], ", called={"w_": "omega_"}
+)
+row.reached_by("exp_rotation", "in the rotation part, ")
 row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign
 
 

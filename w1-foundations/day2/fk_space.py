@@ -18,10 +18,11 @@ either_form(row, space)
 def _(screws, M, q):
     """M-first: your product has M to the left of the exponentials. For screws in the
       world frame, M belongs on the right
-    M-only-added: your code adds only the translation of M. Multiply by M instead, which
-      also contains a rotation
+    M-only-added: your code adds only the translation of M. Multiply by M instead,
+      because M also contains a rotation
     space-screws-in-body-form: your code transforms the screws to the end-effector
-      frame, but its product needs screws in the world frame. Use the screws unchanged
+      frame, but this order of the factors needs screws in the world frame. Use the
+      screws unchanged
     """
     added = np.zeros((4, 4))
     added[:3, 3] = M[:3, 3]

@@ -25,8 +25,8 @@ def _(rng):
 @row.wrongs
 def _(T_zero):
     """axis-row-not-column: your axis is a row of R, but the link's z axis, expressed in
-      the world frame, is a column
-    axis-local-z: your axis is (0, 0, 1) for every joint, which is the z axis in the
+      the world frame, is a column of R
+    axis-local-z: your axis is (0, 0, 1) for every joint, the z axis expressed in the
       link frame. The screw should be expressed in the world frame
     axis-x-column: your axis is the link's x axis, but the Panda's joints rotate about z
     axis-y-column: your axis is the link's y axis, but the Panda's joints rotate about z

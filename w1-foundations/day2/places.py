@@ -87,14 +87,16 @@ def _exponential(S: Array, q: Array, k: int) -> Factor:
     name = f"joint{k + 1}"
 
     def candidates() -> Found:
-        never = f"{name} does not move, because your product omits its exponential"
+        never = (
+            f"Your product omits the exponential of {name}, so this joint does not move"
+        )
         yield Finding("joint-skipped", never), np.eye(4)[None]
-        twice = f"Your product applies {name}'s exponential twice"
+        twice = f"Your product contains the exponential of {name} twice"
         yield Finding("joint-twice", twice), exp_screw(S[:, k], 2.0 * q[:, k])
         for j in set(range(q.shape[1])) - {k}:
-            says = f"{name} moves by the angle of joint{j + 1}"
+            says = f"In your product, {name} moves by the angle of joint{j + 1}"
             yield Finding("joint-fed-another", says), exp_screw(S[:, k], q[:, j])
-            says = f"{name} moves along the screw of joint{j + 1}"
+            says = f"In your product, {name} moves along the screw of joint{j + 1}"
             yield Finding("screw-of-another", says), exp_screw(S[:, j], q[:, k])
 
     def unnamed(X: Array) -> Finding | None:
@@ -107,7 +109,7 @@ def _exponential(S: Array, q: Array, k: int) -> Factor:
         cosine = 0.5 * (np.trace(X[:, :3, :3], axis1=1, axis2=2) - 1.0)
         if not matches(X, exp_screw(S[:, k], np.arctan2(sine, cosine))):
             return None
-        says = f"{name} moves along its screw by the wrong angle"
+        says = f"In your product, {name} moves along its screw by the wrong angle"
         return Finding("joint-angle-off", says)
 
     return Factor(name, exp_screw(S[:, k], q[:, k]), False, candidates, unnamed)
@@ -118,10 +120,10 @@ def _row(table: Array, theta: Array, k: int) -> Factor:
     name = f"row {k + 1}"
 
     def candidates() -> Found:
-        missing = f"{name} of the table has no effect"
+        missing = f"In your product, {name} of the table has no effect"
         yield Finding("row-skipped", missing), np.eye(4)[None]
         for j in set(range(theta.shape[1])) - {k}:
-            says = f"{name} of the table has the angle of row {j + 1}"
+            says = f"In your product, {name} of the table has the angle of row {j + 1}"
             yield Finding("row-fed-another", says), dh_link(*columns, theta[:, j])
 
     def unnamed(X: Array) -> Finding | None:
@@ -147,8 +149,8 @@ def _one_at_a_time(case: Case) -> Finding | None:
         return None
     if not off:
         where = (
-            "If only one joint moves at a time, your pose is correct, so look at the "
-            "product of the exponentials, for example at their order."
+            "If only one joint moves at a time, your pose is correct. Look at the "
+            "product of the exponentials, for example at the order of the factors."
         )
     else:
         where = "If only one joint moves at a time, your pose is wrong for "

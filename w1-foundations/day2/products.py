@@ -72,10 +72,10 @@ def _in_the_product(row, form):
     def _(screws, M, q):
         """product-reversed: your exponentials are in the reverse order. The exponential
           of the joint nearest to the base belongs on the left
-        M-twice: your product contains M on both sides of the exponentials. It should
-          contain M only once
+        M-twice: your product contains M on both sides of the exponentials. The product
+          should contain M only once
         M-in-the-loop: your code multiplies by M inside the loop, so the product
-          contains M once per joint. It should contain M only once
+          contains M once per joint. The product should contain M only once
         multiplied-by-entries: your code multiplies the exponentials entry by entry. Use
           the matrix product
         multiplied-by-entries 2: your code multiplies the exponentials entry by entry.
@@ -95,7 +95,7 @@ def _in_the_product(row, form):
     @row.wrong
     def exponentials_summed(screws, M, q):
         """your code adds the twists and computes one exponential of the sum, but e^A
-        e^B is e^(A + B) only if A and B commute"""
+        e^B equals e^(A + B) only if A and B commute"""
         V = q @ screws
         size = np.linalg.norm(V[:3]) or 1.0
         return with_M(form, motion(V / size, size), M)
@@ -108,7 +108,7 @@ def _in_M(row, form):
           end-effector pose at q = 0
         M-inverted: your code inverts M, but M itself maps end-effector coordinates to
           world coordinates
-        M-twice: your product contains M twice. It should contain M only once
+        M-twice: your product contains M twice. The product should contain M only once
         M-rotation-missing: your code uses only the translation of M and omits its
           rotation
         M-turned-back: your code transposes the rotation of M. Use M unchanged

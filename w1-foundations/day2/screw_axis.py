@@ -19,24 +19,26 @@ def _(rng):
 
 @row.wrongs
 def _(axis, point):
-    """moment-sign: your omega is correct, but v has the wrong sign. The velocity v
-      belongs to the origin, and the vector from your point to the origin is -point
-    moment-is-point: your v is the point itself. It should be the velocity of the
-      origin, which also depends on omega
-    moment-is-minus-point: your v is the negative of the point. It should be the
-      velocity of the origin, which also depends on omega
-    moment-is-foot: your v is the position of the axis point nearest to the origin. It
-      should be the velocity of the origin, which is perpendicular to that position
+    """moment-sign: your omega is correct, but v has the wrong sign. The vector v is the
+      velocity of the origin, and the position of the origin relative to your point is
+      -point
+    moment-is-point: your v is the point itself. The vector v should be the velocity of
+      the origin, which also depends on omega
+    moment-is-minus-point: your v is the negative of the point. The vector v should be
+      the velocity of the origin, which also depends on omega
+    moment-is-foot: your v is the position of the axis point nearest to the origin. The
+      vector v should be the velocity of the origin, which is perpendicular to this
+      position
     moment-forgotten: your v is 0 for every point, which is correct only for an axis
       through the origin
     twist-order: your two halves are swapped. The first half should be omega, and the
       second half should be v
-    twist-order-and-sign: your two halves are swapped, and v has the wrong sign. The
-      first half should be omega
-    product-by-entries: your code multiplies omega and the point entry by entry to get
-      v. Use the cross product
-    product-by-entries 2: your code multiplies omega and the point entry by entry to get
-      v. Use the cross product
+    twist-order-and-sign: your two halves are swapped, and v also has the wrong sign.
+      The first half should be omega
+    product-by-entries: your v is the entry-by-entry product of omega and the point. Use
+      the cross product
+    product-by-entries 2: your v is the entry-by-entry product of omega and the point.
+      Use the cross product
     """
     v = np.cross(point, axis)
     return {

@@ -20,14 +20,14 @@ def _(rng):
 
 @row.wrongs
 def _(w):
-    """p-cross-w: your code reverses every sign, so it returns the transpose, which
-      computes p x w instead of w x p
-    no-minus: your code makes every sign positive, but the matrix should be
-      antisymmetric
-    outer-product: your code returns the outer product w w^T, which projects onto w
-      instead of computing w x p
-    on-the-diagonal: your code puts the vector on the diagonal, but the diagonal of an
-      antisymmetric matrix is 0
+    """p-cross-w: your code reverses every sign, so the two factors of the cross product
+      are swapped
+    no-minus: all signs are positive in your code, but entries that mirror each other
+      across the diagonal should have opposite signs
+    outer-product: your code uses the outer product of the vector with itself, which
+      projects onto the vector instead of computing a cross product
+    on-the-diagonal: your code puts the vector on the diagonal, but all diagonal entries
+      should be 0
     """
     x, y, z = w
     return {
@@ -41,7 +41,7 @@ def _(w):
 for letter, signs in FLIPPED.items():
     row.wrong(
         "pair-of-signs",
-        f"your two entries that contain w_{letter} have the wrong signs",
+        f"both entries that contain w_{letter} have the wrong sign in your code",
     )(lambda w, signs=signs: skew(w * signs))
 for sign, more in SIGNS:
     for letters, order in SWAPPED.items():
@@ -51,13 +51,13 @@ for sign, more in SIGNS:
             both=bool(more),
         )(lambda w, order=order, sign=sign: skew(sign * w[order]))
 for half, filled, empty in (
-    (np.triu, "upper right", "lower left"),
-    (np.tril, "lower left", "upper right"),
+    (np.triu, "upper", "lower"),
+    (np.tril, "lower", "upper"),
 ):
     row.wrong(
         "half-empty",
-        f"your code fills only the {filled} half. The {empty} half should contain the "
-        f"mirrored entries with the opposite sign",
+        f"your code fills only the {filled} triangle. The {empty} triangle should "
+        "contain the mirrored entries with the opposite sign",
     )(lambda w, half=half: half(skew(w)))
 
 

@@ -38,8 +38,8 @@ def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
     if difference(S[some], -T[some]).max() < OFF:
         return Finding(
             "sign-near-pi",
-            f"{says} The axis is correct, but its sign is not. R - R^T is small "
-            "there, but it still determines the sign.",
+            f"{says} The axis has the wrong sign. Near pi, R - R^T is small, but it "
+            "still determines the sign.",
         )
     if one_of_two[some].max() > OFF and _alike(np.abs(S[some]), np.abs(T[some])):
         return Finding(
@@ -51,8 +51,8 @@ def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
         return found
     return Finding(
         "wrong-near-pi",
-        f"{says} R - R^T is nearly 0 there. Does your code divide it by the sine? "
-        "This division amplifies the rounding errors.",
+        f"{says} Near pi, R - R^T is nearly 0. Does your code divide R - R^T by the "
+        "sine? This division amplifies the rounding errors.",
     )
 
 
@@ -67,8 +67,8 @@ def _set_to_pi(S: Array, T: Array, some: np.ndarray) -> Finding | None:
     least = np.pi - float(length.min())
     return Finding(
         "pi-for-the-angle",
-        f"Your angle is pi where it should be {least:.1e} rad smaller. The sine is "
-        "small there, but not 0, so atan2 still gives the angle.",
+        f"Your angle is pi, but it should be {least:.1e} rad smaller. Near pi the sine "
+        "is small, not 0, so atan2 still gives the angle.",
     )
 
 
@@ -138,7 +138,7 @@ def _as_an_arccosine(S: Array, T: Array, off: np.ndarray) -> Finding | None:
         return None
     return Finding(
         "arccosine",
-        f"Your result is close, but the angle is off by {apart:.1e} near 0 or pi. An "
-        f"arccosine loses half of the digits there. Which function uses both the sine "
-        f"and the cosine?",
+        f"Your result is close, but the angle is off by {apart:.1e} near 0 or pi. Near "
+        "these angles, an arccosine loses half of the digits. Which function uses both "
+        "the sine and the cosine?",
     )

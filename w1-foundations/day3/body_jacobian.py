@@ -27,12 +27,13 @@ def _(J_space, T):
     site-for-body: your code returns J_site, whose v belongs to the correct point but is
       expressed in the world frame. Express both halves in the hand frame
     rotation-only: your code only rotates J_space into the hand frame, but v is still
-      the velocity of the point at the world origin
+      the velocity of the body point at the world origin
     transposed-adjoint: your code transposes Ad(T), but the inverse of an adjoint is not
       its transpose
-    bracket-without-R: the lower left block of your adjoint is [p]. It should be [p] R
-    bracket-on-the-right: the lower left block of your adjoint is R [p]. It should be
+    bracket-without-R: the lower left block of your adjoint is [p]. This block should be
       [p] R
+    bracket-on-the-right: the lower left block of your adjoint is R [p]. This block
+      should be [p] R
     turned-by-R: your code multiplies J_site by R, which rotates from the hand frame to
       the world frame. Use R^T
     """

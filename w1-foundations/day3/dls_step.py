@@ -19,9 +19,9 @@ def _without_damping(rng):
 
 AT_NO_DAMPING = HeldOut(
     "zero-without-damping",
-    "Your function is correct if `damping` is positive but returns zeros if `damping` "
-    "is 0. Without damping, the damped least-squares step is the pseudo-inverse step. "
-    "Step 6 of the lab uses this case.",
+    "Your function is correct if `damping` is positive, but it returns zeros if "
+    "`damping` is 0. Without damping, the damped least-squares step is the "
+    "pseudo-inverse step. Step 6 of the lab uses this case.",
     _without_damping,
     mistaken=lambda J, e, damping: np.zeros(7),
 )
@@ -42,8 +42,8 @@ def _(J, e, damping):
       J, but `damping` already has the units of J
     damping-dropped: your code omits the damping, so the result is the pseudo-inverse
       step, which is very large near a singularity
-    damping-everywhere: your code adds damping^2 to every entry of J J^T. Add it only to
-      the diagonal
+    damping-everywhere: your code adds damping^2 to every entry of J J^T. Add damping^2
+      only to the diagonal
     transpose-only: your code returns the gradient step J^T e. The damped least-squares
       step also needs the inverse of the damped J J^T
     pseudo-inverse-scaled: your code divides the pseudo-inverse step by 1 + damping^2,
@@ -51,12 +51,13 @@ def _(J, e, damping):
       small singular values
     damping-fixed: your damping is always 0.05. Use the argument `damping`
     damping-added-to-the-values: your factors are 1 / (s + damping) for the singular
-      values s. They should be s / (s^2 + damping^2)
+      values s. The factors should be s / (s^2 + damping^2)
     singular-value-missing 2: your factors are 1 / (s^2 + damping^2) for the singular
       values s above 0. Each factor should also contain s, because J^T contributes a
       factor s
     damping-as-a-cut: your code passes `damping` to the pseudo-inverse as `rcond`, which
-      discards small singular values. Damping should only reduce their weight
+      discards small singular values. Damping should only reduce the weight of small
+      singular values
     singular-value-missing: your factors are 1 / (s^2 + damping^2) for the singular
       values s. Each factor should also contain s, because J^T contributes a factor s
     """

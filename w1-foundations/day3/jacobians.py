@@ -34,7 +34,7 @@ class OrNaN(Kind):
         fine = np.isfinite(S).reshape(len(S), -1).all(axis=1)
         if fine.all() or not fine.any():
             return super().apart(S, T)
-        return f"{super().apart(S[fine], T[fine])} where it is a number"
+        return f"{super().apart(S[fine], T[fine])} in the calls without NaN"
 
 
 @cache

@@ -25,16 +25,17 @@ def _(rng):
 def _(J_space, p, F):
     """at-the-origin: your code uses J_space^T, which requires the moment about the
       world origin, but the given moment is about p
-    what-balances-it: your sign is correct for a wrench that acts on the hand, but F is
-      the wrench that the hand exerts. The motor power should equal the power of F
+    what-balances-it: your sign would be correct for a wrench that acts on the hand, but
+      F is the wrench that the hand exerts. The motor power should equal the power of F
     pseudo-inverse: your code returns J^+ F, which does not conserve power. Write down
       the motor power and the power of F at the hand
     moment-forgotten: your code omits the moment, whose power is moment . omega
     force-forgotten: your code omits the force, whose power is force . v
-    arm-the-wrong-way: your moment of the force about the origin is f x p. It should be
-      p x f
-    arm-twice: your code adds p x f to the moment, but the Jacobian already belongs to
-      the point p. Use only one of these two conversions => both
+    arm-the-wrong-way: your moment of the force about the origin is f x p. The moment
+      should be p x f
+    arm-twice: your code adds p x f to the moment, as for J_space, and also uses the
+      Jacobian of the point p. Use J_space with this sum, or the Jacobian of p with the
+      given moment => both
     """
     J = site_jacobian(J_space, p)
     moment = F[:3]

@@ -132,19 +132,21 @@ def roll_pitch_yaw(R):
 
 @row.wrongs
 def _(R):
-    """sine-for-angle: the norm of your vector is the sine of the angle. It should be
-      the angle
+    """sine-for-angle: the norm of your vector is the sine of the angle. The norm should
+      be the angle itself
     twice-the-sine: your vector has the entries of R - R^T, so its norm is twice the
-      sine of the angle. It should be the angle
+      sine of the angle. The norm should be the angle itself
     quaternion-vector-part: your vector is the vector part of the quaternion, whose norm
       is sin(angle / 2). The norm should be the angle
     twice-the-quaternion-part: your vector is twice the vector part of the quaternion,
       which is accurate only for small angles
-    axis-only: your vector is the unit axis. Its norm should be the angle
+    axis-only: your vector is the unit vector along the axis. The norm of the vector
+      should be the angle
     arcsine: your code computes the angle with an arcsine, which cannot distinguish 100
-      degrees from 80 degrees. Use the trace as well
-    half-the-angle: the norm of your vector is half the angle, as in a quaternion
-    in-degrees: your angle is in degrees. It should be in radians
+      degrees from 80 degrees. Use the trace of R as well
+    half-the-angle: the norm of your vector is half the angle, as in a quaternion. The
+      norm should be the whole angle
+    in-degrees: your angle is in degrees. The angle should be in radians
     roll-pitch-yaw: your code returns roll, pitch and yaw, the angles of three
       successive rotations, but a rotation vector describes a single rotation
     """
@@ -166,9 +168,12 @@ def _(R):
 
 @row.wrongs
 def _(R):
-    """half-the-trace-less-1: your cosine is trace / 2 - 1. It should be (trace - 1) / 2
-    half-the-trace-less-1 2: your cosine is trace / 2 - 1. It should be (trace - 1) / 2
-    half-the-trace-less-1 3: your cosine is trace / 2 - 1. It should be (trace - 1) / 2
+    """half-the-trace-less-1: your cosine is trace / 2 - 1. The cosine should be (trace
+      - 1) / 2
+    half-the-trace-less-1 2: your cosine is trace / 2 - 1. The cosine should be (trace -
+      1) / 2
+    half-the-trace-less-1 3: your cosine is trace / 2 - 1. The cosine should be (trace -
+      1) / 2
     """
     c = np.trace(R) / 2 - 1
     angle = np.arccos(c)
@@ -181,10 +186,11 @@ def _(R):
 
 @row.wrongs(hidden={"arccosine-beyond-1": "its identity is exact"})
 def _(R):
-    """textbook-formula: your formula theta / (2 sin theta) times R - R^T is 0 / 0 for
-      the identity, and near pi it divides rounding errors by nearly 0
-    nan-at-0: your result for the identity is NaN, because your code divides by the
-      sine, which is 0 there
+    """textbook-formula: your code multiplies R - R^T by theta / (2 sin(theta)). This
+      factor is 0 / 0 for the identity matrix, and near pi it amplifies the rounding
+      errors
+    nan-at-0: your result for the identity matrix is NaN, because your code divides by
+      sin(0) = 0
     arccosine-beyond-1: your result is NaN where rounding makes (trace - 1) / 2 larger
       than 1 or smaller than -1. Use atan2, which accepts all values
     """
@@ -206,8 +212,9 @@ def from_column(R, k):
 for k, (which, missing) in enumerate((("first", "x"), ("second", "y"), ("last", "z"))):
     row.wrong(
         "fixed-column",
-        f"near pi your code always takes the axis from the {which} column. This column "
-        f"is 0 if the axis has no {missing} component. Use the largest column",
+        f"near pi your code always takes the axis from the {which} column of R + R^T. "
+        f"This column is 0 if the axis has no {missing} component. Use the column with "
+        "the largest norm",
         hidden="its half turn is about y" if missing == "y" else "",
     )(lambda R, k=k: from_column(R, k))
 

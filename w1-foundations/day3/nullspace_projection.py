@@ -57,18 +57,18 @@ def _(rng):
 
 @row.wrongs(hidden={"one-direction-only": "its J have rank 6"})
 def _(J, dq):
-    """transpose-for-pseudo-inverse: your code uses J^T instead of J^+, but I - J^T J is
-      not a projection, so the hand moves
+    """transpose-for-pseudo-inverse: your code uses J^T instead of J^+, so your matrix
+      is not a projection and the hand moves
     felt-part: your code returns J^+ J dq, the part of dq that moves the hand. Return
       the remaining part of dq
     unchanged: your code returns dq unchanged
-    added: your code adds the part that moves the hand. It should subtract this part
-    nothing-left: your result is 0, but an arm with seven joints always has a motion
-      that does not move the hand
+    added: your code adds the part of dq that moves the hand. Subtract this part
+    nothing-left: your result is 0, but an arm with seven joints always has a joint
+      motion that does not move the hand
     normalised: your code normalises the result, but the norm of the projection depends
       on dq. Return the projection unscaled
     one-direction-only: your code uses only the last right singular vector. If J is
-      singular, further directions do not move the hand
+      singular, more than one direction leaves the hand at rest
     first-direction-kept: your code does not remove the part along the first right
       singular vector, which moves the hand most
     position-only: your code uses only the three v rows of J, so the hand rotates

@@ -47,11 +47,11 @@ def screw_log(D):
 @row.wrongs
 def _(T, T_goal):
     """in-the-hands-axes: both halves of your error are expressed in the hand frame.
-      They should be expressed in the world frame
+      Both halves should be expressed in the world frame
     body-twist: your code returns the body twist log(T^-1 T_goal), which belongs to
-      J_body. The error should belong to J_site
+      J_body. The task asks for the error that belongs to J_site
     space-twist: your code returns the spatial twist log(T_goal T^-1), which belongs to
-      J_space. The error should belong to J_site
+      J_space. The task asks for the error that belongs to J_site
     """
     D = np.linalg.inv(T) @ T_goal
     return {
@@ -63,10 +63,10 @@ def _(T, T_goal):
 
 @row.wrongs
 def _(T, T_goal):
-    """rotation-in-the-hands-axes: your rotation is log(R^T R_goal), expressed in the
-      hand frame. It should be expressed in the world frame
-    rotation-sign: your rotation leads from the goal to the hand. It should lead from
-      the hand to the goal
+    """rotation-in-the-hands-axes: your rotation vector is log(R^T R_goal), expressed in
+      the hand frame. The rotation vector should be expressed in the world frame
+    rotation-sign: your rotation leads from the goal to the hand. The rotation should
+      lead from the hand to the goal
     rotation-difference: your code subtracts the rotation vectors, but log(R_goal) -
       log(R) is not the rotation vector from R to R_goal
     euler-difference: your code subtracts roll, pitch and yaw, but their difference is
@@ -87,13 +87,14 @@ def _(T, T_goal):
 @row.wrongs
 def _(T, T_goal):
     """translation-in-the-hands-axes: your translation is expressed in the hand frame,
-      as in the last column of T^-1 T_goal. It should be expressed in the world frame
-    goal-position-for-translation: your translation is the position of the goal. It
-      should be the vector from the hand to the goal
-    translation-sign: your translation leads from the goal to the hand. It should lead
-      from the hand to the goal
+      as in the last column of T^-1 T_goal. The translation should be expressed in the
+      world frame
+    goal-position-for-translation: your translation is the position of the goal. The
+      translation should be the vector from the hand to the goal
+    translation-sign: your translation leads from the goal to the hand. The translation
+      should lead from the hand to the goal
     screw-for-translation: your translation is p_goal - R p, the translation of T_goal
-      T^-1. It should be p_goal - p
+      T^-1. The translation should be p_goal - p
     """
     goal = T_goal[:3, 3]
     turn = pose_error(T, T_goal)[:3]

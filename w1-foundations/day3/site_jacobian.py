@@ -19,8 +19,8 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p):
-    """space-for-site: your code returns J_space, whose v is the velocity of the point
-      at the world origin, not at p
+    """space-for-site: your code returns J_space, whose v is the velocity of the body
+      point at the world origin. Use the velocity of the point p
     halves-read-as-v-omega: your code reads the upper rows of J_space as v and the lower
       rows as omega, but omega comes first
     omega-changed: your code adds v x p to omega, but all points of a body have the same

@@ -53,19 +53,19 @@ def in_the_hands_axes(T, T_goal):
 
 @row.wrongs
 def _(screws, M, T_goal, q_start, limits):
-    """space-jacobian: your steps use J_space, whose v is the velocity of the point at
-      the world origin and not of the hand
+    """space-jacobian: your steps use J_space, whose v is the velocity of the body point
+      at the world origin, not the velocity of the hand
     body-jacobian: your steps use J_body, which is expressed in the hand frame, but your
       error is expressed in the world frame. Express both in the same frame
     error-in-the-hands-axes: your error is expressed in the hand frame, but J_site is
       expressed in the world frame. Express both in the same frame
     damping-not-squared: your code adds the damping instead of its square, so the
-      damping term is too large
-    limits-forgotten: your code does not apply the joint limits. Apply them after each
-      step
+      damping is too strong
+    limits-forgotten: your code does not apply the joint limits. Apply the limits after
+      each step
     jacobian-never-updated: your code computes the Jacobian only at the start, but the
       Jacobian changes with every step
-    q-start-unused: your loop starts from READY_Q. It should start from `q_start`
+    q-start-unused: your loop starts from READY_Q instead of `q_start`
     """
     J = at_hand(space_jacobian(screws, q_start), fk_space(screws, M, q_start))
     parts = {
@@ -86,20 +86,21 @@ def _(screws, M, T_goal, q_start, limits):
 
 @row.wrong(hidden="it arrives all the same: success is no proof")
 def damping_not_squared(screws, M, T_goal, q_start, limits):
-    """your code uses the squared damping as the damping, so it is squared twice. Is a
-    square root missing?"""
+    """your code uses the squared damping as the damping, so the damping is squared
+    twice. Is a square root missing?"""
     return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: ee / 2 + 1e-6)
 
 
 @row.wrong(hidden="few of its targets are at a limit")
 def limits_at_the_end(screws, M, T_goal, q_start, limits):
-    """your code applies the joint limits only at the end. Apply them after each step"""
+    """your code applies the joint limits only at the end. Apply the limits after each
+    step"""
     return np.clip(walk(screws, M, T_goal, q_start, None), *limits.T)
 
 
 @row.wrong
 def q_start_unused(screws, M, T_goal, q_start, limits):
-    """your loop starts from q = 0. It should start from `q_start`"""
+    """your loop starts from q = 0 instead of `q_start`"""
     return walk(screws, M, T_goal, np.zeros(7), limits)
 
 

@@ -61,13 +61,13 @@ def _(screws, q):
       but all joints before it move the screw
     product-reversed: your code multiplies the exponentials in the reverse order, but
       the exponential of joint 1 belongs on the left
-    one-joint-late: your code transforms each screw before it multiplies the product by
-      the exponential of the preceding joint, so each screw lacks the motion of that
-      joint
-    moved-by-the-next: your code also moves each screw by the joint after it, but that
-      joint does not affect the screw
+    one-joint-late: each screw in your code lacks the motion of the joint directly
+      before it. Multiply the product by the exponential of this joint before you
+      transform the screw
+    moved-by-the-next: your code also moves each screw by the joint after it, but this
+      joint does not move the screw
     moved-by-all: your code moves every screw by all seven joints, but only the joints
-      before it move the screw
+      before a screw move this screw
     moved-by-those-after: your code moves each screw by the joints after it, but only
       the joints before it move the screw
     adjoint-of-the-inverse: your code transforms the screws with the adjoint of the
@@ -96,7 +96,8 @@ def _(screws, q):
 def _(screws, q):
     """bracket-top-right: your adjoint has the block [p] R in the upper right. With the
       order (omega; v), this block belongs in the lower left
-    bracket-after-R: the lower left block of your adjoint is R [p]. It should be [p] R
+    bracket-after-R: the lower left block of your adjoint is R [p]. This block should be
+      [p] R
     rotation-only: your code only rotates the screws, because your adjoint lacks the
       block [p] R
     translation-only: your code does not rotate the screws, because your adjoint lacks R

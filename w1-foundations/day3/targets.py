@@ -149,7 +149,7 @@ def _half_there(S, M, T_goal, q) -> Finding | None:
     if turn < 1e-8 and move > 1e-4:
         says = (
             "The hand's rotation is correct, but its position is "
-            f"{1000 * move:.2g} mm off. Does your loop use only the rotation error "
+            f"{1000 * move:.3g} mm off. Does your loop use only the rotation error "
             "in its steps, in its stopping test or in its choice of the best q?"
         )
         return Finding("rotation-only", says)

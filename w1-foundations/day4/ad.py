@@ -21,8 +21,8 @@ def _(rng):
 
 @row.wrongs
 def _(V):
-    """v-on-top: your block [v] is in the upper right, but the linear velocity does not
-      change an angular velocity. The block belongs in the lower left
+    """v-on-top: your block [v] is in the upper right. The block belongs in the lower
+      left, because a linear velocity does not change an angular velocity
     v-forgotten: your code omits the block [v], but the linear velocity changes the
       linear half of a twist
     second-omega-forgotten: your lower right block is 0, but omega also rotates the
@@ -30,8 +30,8 @@ def _(V):
     v-in-both-corners: your block [v] is in both off-diagonal blocks. The upper right
       block should be 0
     v-last: your lower right block is [v]. Both diagonal blocks should be [omega]
-    identity-added: your code adds the identity. The matrix ad(V) is a rate of change,
-      so ad(0) should be 0
+    identity-added: your code adds the identity matrix. The matrix ad(V) is a rate of
+      change, so ad(0) should be 0
     product-for-v: your lower left block is [v] [omega]. The adjoint of a pose contains
       a product, [p] R, but ad(V) contains only [v]
     omega-everywhere: your lower left block is [omega] instead of [v]

@@ -9,7 +9,7 @@ from robo47.dynamics import energy
 from .gravity import OTHER_GRAVITY
 from .states import DOWN, arm, pulls, states
 
-row = Row(Vector((2,), "J", names=("the kinetic", "the potential")))
+row = Row(Vector((2,), "J", names=("the kinetic energy", "the potential energy")))
 
 
 @row.inputs

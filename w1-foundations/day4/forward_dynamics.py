@@ -44,8 +44,8 @@ def _(M, bias, damping, qd, tau):
 
 @row.wrongs
 def _(M, bias, damping, qd, tau):
-    """both-signs: your code adds `bias` and the damping torque to tau. It should
-      subtract both
+    """both-signs: your code adds `bias` and the damping torque to tau. Subtract both
+      from tau
     armature-twice: your code adds the armature to M, but M already contains the
       armature (task 4.3)
     mass-of-the-step: your code uses M + h damping, the matrix of the simulator's
@@ -57,7 +57,7 @@ def _(M, bias, damping, qd, tau):
     damping-not-divided: your code subtracts the damping torque after the division by M.
       Subtract all torques before the division
     only-torque-divided: your code divides only tau by M, but `bias` and the damping
-      torque are also torques. Subtract them from tau first
+      torque are also torques. Subtract both from tau first
     """
     brake = damping * qd
     net = tau - bias - brake
@@ -79,14 +79,14 @@ def _(M, bias, damping, qd, tau):
 
 @row.wrong
 def half_solved(M, bias, damping, qd, tau):
-    """your code solves only the first of the two triangular systems. M is L L^T, so
-    solve with L and then with L^T"""
+    """your code solves only the first of the two triangular systems. M equals L L^T, so
+    solve with L first and then with L^T"""
     return solve(np.linalg.cholesky(M), tau - bias - damping * qd)
 
 
 @row.wrong
 def one_factor_twice(M, bias, damping, qd, tau):
-    """your second triangular system uses L again. M is L L^T, so the second system
+    """your second triangular system uses L again. M equals L L^T, so the second system
     needs L^T"""
     L = np.linalg.cholesky(M)
     return solve(L, solve(L, tau - bias - damping * qd))

@@ -14,13 +14,13 @@ UPRIGHT = "the lab's robot stands upright"
 OTHER_GRAVITY = (
     Change(
         "gravity-typed-in",
-        "your code contains gravity as the fixed number 9.81 with the wrong sign. Use "
+        "your code uses the constant (0, 0, 9.81) for gravity, which points up. Use "
         "the argument {name}",
         typed_in(9.81),
     ),
     Change(
         "gravity-rounded",
-        "your code contains gravity as the fixed number 9.8. Use the argument {name}",
+        "your code uses the rounded constant 9.8 for gravity. Use the argument {name}",
         typed_in(-9.8),
     ),
 )
@@ -28,21 +28,22 @@ OTHER_GRAVITY = (
 OTHER_DIRECTION = (
     Change(
         "gravity-typed-in",
-        "your code contains gravity as the fixed vector (0, 0, -9.81). Use the "
-        "argument {name}, because the robot may be mounted on a wall",
+        "your code uses the constant (0, 0, -9.81) for gravity. Use the argument "
+        "{name}, because the robot may be mounted on a wall",
         typed_in(-9.81),
         hidden=UPRIGHT,
     ),
     Change(
         "only-z-of-gravity",
-        "your code uses only the z component of {name}, but {name} need not point down",
+        "your code uses only the z component of {name}, but {name} can point in any "
+        "direction",
         lambda g: g * [0.0, 0.0, 1.0],
         hidden=UPRIGHT,
     ),
     Change(
         "length-of-gravity",
-        "your code uses only the norm of {name} and always points it downwards. Use "
-        "its direction as well",
+        "your code uses only the norm of {name} and assumes that gravity points down. "
+        "Use the direction of {name} as well",
         lambda g: np.array([0.0, 0.0, -np.linalg.norm(g)]),
         hidden=UPRIGHT,
     ),

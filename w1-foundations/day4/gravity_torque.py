@@ -40,9 +40,10 @@ def torque(
 @row.wrongs
 def _(J, masses, coms_world, g):
     """gravity-sign: your code returns the torque that gravity exerts. Return the motor
-      torque that balances it, which has the opposite sign
+      torque that balances this torque and has the opposite sign
     velocity-of-the-origin: your code uses the lower half of J_space, which is the
-      velocity of the point at the world's origin. The weight acts at the centre of mass
+      velocity of the body point at the world origin. Use the velocity of the centre of
+      mass, where the weight acts
     omega-rows-for-v: your code uses the upper half of J_space as the velocity, but this
       half is omega
     """
@@ -65,9 +66,10 @@ def _(J, masses, coms_world, g):
     own-link-left-out: each torque in your code includes only the links after the
       joint's own link, but the joint also carries its own link
     link-before-too: each torque in your code also includes the link before the joint,
-      which does not move with the joint
-    links-on-the-wrong-side: each torque in your code includes the links between the
-      joint and the base, which do not move with the joint
+      but this link does not move with the joint
+    links-on-the-wrong-side: each torque in your code includes the links before the
+      joint, but these links do not move with the joint. Use the links after the joint
+      instead
     """
     joint = np.arange(7)
     link = np.arange(7)[:, None]

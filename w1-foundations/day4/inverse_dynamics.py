@@ -89,36 +89,35 @@ def _(J, G, qd, qdd, g):
     """bracket-forgotten: your acceleration lacks the term ad(V) S qd, but a joint's
       screw changes direction when it moves with its link
     bracket-sign: your acceleration has the wrong sign in front of the term ad(V) S qd
-    bracket-twice: your code adds ad(V) S qd twice to the acceleration. The acceleration
-      needs no factor 2, because the wrench contributes the other half of the Coriolis
-      force
+    bracket-twice: your code adds ad(V) S qd twice to the acceleration. Add this term
+      once, because the wrench contributes the other half of the Coriolis force
     speed-squared: your acceleration contains ad(V) S qd^2, but V already contains one
       of the two velocities
     bracket-not-transposed: your wrench contains ad(V), but wrenches transform with the
       transpose of ad(V)
-    velocity-product-forgotten: your wrench is G A alone. It should also contain
-      -ad(V)^T G V, because the inertia itself moves
-    velocity-of-the-link-before: your wrench uses V before your code adds the velocity
-      of the link's own joint
+    velocity-product-forgotten: your wrench is only G A. The wrench also needs the term
+      -ad(V)^T G V, because G changes when the link moves
+    velocity-of-the-link-before: your wrench uses V without the velocity of the link's
+      own joint. Add this velocity to V first
     summed-from-the-base: your code sums the wrenches from the base to the tip. A motor
-      carries the links beyond it, so start at the tip
+      carries the links between itself and the tip, so start at the tip
     every-link-for-all: each torque in your code includes the wrenches on all seven
       links, but a joint carries only its own link and the links after it
     moment-only: your code uses only the moments about the world's origin. Use all six
-      components of S, because the force also acts on an axis that does not pass through
-      the origin
+      components of S, because a force also has a moment about an axis that does not
+      pass through the origin
     own-link-left-out: each torque in your code includes only the wrenches on the links
       after the joint's own link, but the joint also carries its own link
     accelerations-not-added: your acceleration of each link includes only the link's own
       joint, but the joints before this joint also move the link
-    nothing-added-outwards: your code resets V and A at every link. They should
+    nothing-added-outwards: your code resets V and A at every link. Both should
       accumulate along the arm
-    gravity-at-every-link: your code adds gravity at the base and again at every link,
-      but the recursion already propagates it from the base
-    bracket-not-transposed 2: your wrench contains ad(V) instead of -ad(V)^T, but
-      wrenches transform with the transpose
-    gravity-at-every-link 2: your code adds gravity again at every link, but the
-      recursion already propagates it from the base
+    gravity-at-every-link: your code adds gravity at the base and again at every link.
+      The recursion already propagates the acceleration of the base to every link
+    bracket-not-transposed 2: your wrench contains ad(V) instead of -ad(V)^T. Wrenches
+      transform with the transpose of ad(V)
+    gravity-at-every-link 2: your code adds gravity again at every link. The recursion
+      already propagates the acceleration of the base to every link
     """
     up = lift(g)
     others = {

@@ -51,11 +51,11 @@ def _(T_links, masses, coms, inertias):
     com-seen-from-the-link: your code transforms the centre of mass with the inverse of
       T, but T maps the link frame to the world frame
     inertia-not-turned: your inertia about the centre of mass is still expressed in the
-      link frame. Rotate it to the world frame
-    inertia-turned-back: your rotated inertia is R^T I R, but R^T rotates from the world
-      frame to the link frame
+      link frame. Rotate the inertia to the world frame
+    inertia-turned-back: your code multiplies the inertia by R^T from the left and by R
+      from the right, but R^T rotates from the world frame to the link frame
     inertia-diagonal: your code uses only the diagonal of each inertia matrix, but the
-      link frame need not be aligned with the principal axes
+      axes of the link frame are in general not the principal axes
     R-transposed: your code transposes R for the centre of mass and for the inertia, but
       R^T rotates from the world frame to the link frame
     """
@@ -80,12 +80,12 @@ def _(T_links, masses, coms, inertias):
 def _(T_links, masses, coms, inertias):
     """left-in-link-axes: your code does not use T_links, so each matrix is expressed in
       its link frame
-    adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. G maps a twist to a
-      momentum, so the factor on its right should map a twist from the world frame to
-      the link frame
+    adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. The matrix G maps a twist
+      to a momentum, so the factor to the right of G should map a twist from the world
+      frame to the link frame
     origin-for-com: your code places the mass at the link's origin. Place the mass at
       the centre of mass
-    poses-multiplied: your code multiplies the poses along the arm, but each T of
+    poses-multiplied: your code multiplies the poses along the arm, but each pose in
       T_links is already relative to the world
     last-link-for-all: all seven of your matrices belong to link7. Does your loop
       overwrite one array and append it for every link? Create a new array each time

@@ -30,8 +30,8 @@ def links(J, G, counts):
 def _(J, G, armature):
     """armature-per-link: your code adds the armature once per link, but each rotor
       contributes only once
-    mirrored-with-the-diagonal: your code adds M and its transpose, which doubles the
-      diagonal. Mirror only the off-diagonal entries
+    mirrored-with-the-diagonal: your code adds a triangle of M and its transpose, which
+      doubles the diagonal. Mirror only the off-diagonal entries
     """
     M = mass_matrix(J, G, armature)
     return {
@@ -44,7 +44,7 @@ def cut(J, G, armature):
     """columns-not-cut: your Jacobian of each link contains all columns, but the joints
       after a link do not move this link
     own-joint-left-out: your Jacobian of each link lacks the column of the link's own
-      joint, which also moves the link
+      joint, but this joint also moves the link
     next-joint-too: your Jacobian of each link contains one column too many, because the
       next joint does not move the link
     columns-cut-on-the-wrong-side: your Jacobian of each link lacks the columns of the
@@ -69,10 +69,11 @@ row.wrongs(cut)
 
 @row.wrongs
 def _(J, G, armature):
-    """corners-swapped: the off-diagonal blocks of your G have the wrong sign. M is
-      still symmetric and positive definite, but it is wrong
+    """corners-swapped: your code uses the off-diagonal blocks of G with the wrong sign.
+      M is still symmetric and positive definite, so these two properties do not show
+      the mistake
     corners-dropped: your code adds the rotational and translational parts separately
-      and omits the off-diagonal blocks of G, which couple them
+      and omits the off-diagonal blocks of G, which couple the two parts
     angular-half-only: your code uses only the angular half of J_space, but the links'
       linear velocities also contribute
     linear-half-only: your code uses only the linear half of J_space and the masses, but
@@ -91,8 +92,8 @@ def _(J, G, armature):
 
 @row.wrong
 def not_summed_back(J, G, armature):
-    """each entry in your code includes only one link, but a joint carries all links
-    after it"""
+    """each entry of your M includes only one link, but a joint moves all links after
+    it"""
     M = np.diag(armature)
     for i in range(7):
         for j in range(7):

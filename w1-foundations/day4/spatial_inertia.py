@@ -29,14 +29,16 @@ def of_blocks(a, b, c, d):
 @row.wrongs
 def _(m, c, I):
     """parallel-axis-sign: the parallel-axis term of your upper left block has the wrong
-      sign. It should be m [c] [c]^T, which equals -m [c] [c] because [c] is
+      sign. The term is m [c] [c]^T, which equals -m [c] [c], because [c] is
       skew-symmetric
-    outer-product-for-skew: your upper left block contains c c^T instead of [c] [c]^T,
-      but a mass resists rotation about the axes that are far from it
+    outer-product-for-skew: your upper left block contains c c^T instead of [c] [c]^T.
+      The moment of inertia about an axis depends on the distance from the axis, not on
+      the coordinate along the axis
     distance-in-all-directions: your upper left block uses |c|^2 for all three axes, but
-      only the distance from an axis contributes to the inertia about it
-    products-of-inertia-sign: the off-diagonal entries of your inertia have the wrong
-      sign. The argument is already the inertia matrix, so use its entries unchanged
+      only the distance from an axis contributes to the moment of inertia about this
+      axis
+    products-of-inertia-sign: your code negates the off-diagonal entries of the inertia.
+      The argument `inertia` is already the inertia matrix, so use all entries unchanged
     """
     C = skew(c)
     own = np.diag(np.diag(I))
@@ -62,10 +64,10 @@ def _(m, c, I):
       symmetric and positive definite, but the momentum has the wrong direction
     corners-empty: your two off-diagonal blocks are 0. These blocks couple rotation and
       translation, and they are 0 only about the centre of mass
-    one-corner-empty: your matrix has one off-diagonal block that is 0. The matrix is
-      symmetric, so each off-diagonal block should be the transpose of the other
+    one-corner-empty: one of your two off-diagonal blocks is 0. The matrix is symmetric,
+      so each off-diagonal block should be the transpose of the other
     mass-forgotten-in-the-corners: your two off-diagonal blocks contain [c] without the
-      mass. They should contain m [c]
+      mass. Both blocks should also contain the mass
     mass-everywhere: your lower right block has the mass in all nine entries. Only the
       diagonal should contain the mass
     blocks-v-omega: your blocks are in the order (v; omega), but omega comes first, as

@@ -41,12 +41,12 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
       still tracks well, but joints with different inertias respond differently, and
       errors do not decay as designed
     damping-forgotten: your code omits the damping torque. The argument `bias` does not
-      contain it, because MuJoCo treats damping as a passive force
-    friction-of-the-error: your code multiplies `damping` by ed. It should multiply
-      `damping` by the measured velocity qd
+      contain this torque, because MuJoCo treats damping as a passive force
+    friction-of-the-error: your code multiplies `damping` by ed. Multiply `damping` by
+      the measured velocity qd
     friction-of-the-reference: your code multiplies `damping` by qd + ed, the velocity
-      of the reference. It should multiply `damping` by the measured velocity qd
-    M-forgotten: your code omits M, so it adds an acceleration to torques. Multiply the
+      of the reference. Multiply `damping` by the measured velocity qd
+    M-forgotten: your code omits M and adds an acceleration to torques. Multiply the
       acceleration by M
     bias-forgotten: your code omits `bias`, so the PD terms have to balance gravity and
       the Coriolis torque
@@ -55,11 +55,11 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
     everything-through-M: your code multiplies `bias` and the damping torque by M, but
       both are already torques
     reference-outside-M: your code adds qdd_ref after the product with M, but qdd_ref is
-      an acceleration. Multiply it by M
-    measured-velocity-damped: your derivative term is -kd qd, so it also brakes the
-      motion of the reference. Use kd ed
+      an acceleration. Multiply qdd_ref by M
+    measured-velocity-damped: your derivative term is -kd qd, so your controller also
+      brakes the desired motion. Use kd ed
     armature-twice: your code adds the armature, 0.1 kg m2, to M, but M already contains
-      it
+      the armature
     bias-alone-at-the-goal: where e is 0, your code returns only `bias`, but the arm may
       still be moving. Use the same formula everywhere
     """

@@ -23,7 +23,8 @@ def starts_elsewhere(case: Case) -> Finding | None:
     t = case.arguments[0]
     if np.abs(case.S[t == 0.0] - 1.0).max() < 1e-8:
         return None
-    says = "For some zeta, your error at t = 0 is not 1. It should always start at 1."
+    says = "For some zeta, your error at t = 0 is not 1. The error should always start "
+    says += "at 1."
     return Finding("does-not-start-at-one", says)
 
 
@@ -72,18 +73,17 @@ def _(rng):
 @row.wrongs
 def _(t, omega, zeta):
     """one-formula-for-all: your code uses the formula for zeta = 1 for every zeta, with
-      zeta omega as its frequency. For zeta below 1 the error should oscillate, and for
-      zeta above 1 it is a sum of two exponentials
+      zeta omega instead of omega. For zeta below 1 the error should oscillate, and for
+      zeta above 1 the error is a sum of two exponentials
     envelope-alone: your curve is only the envelope e^(-zeta omega t). The error should
       start at rest, but this curve starts with a nonzero derivative
     envelope-of-omega: your curve is e^(-omega t) for every zeta. The error should start
       at rest, but this curve starts with a nonzero derivative
     half-the-damping: your curve belongs to half the damping ratio. In the error
-      equation, the factor of ed is 2 zeta omega
+      equation, the first derivative of the error has the factor 2 zeta omega
     output-in-place-of-error: your curve rises from 0 to 1, as the step response of the
       joint does. The error is 1 minus the step response
-    omega-in-turns: your code multiplies omega by 2 pi as if it were in revolutions per
-      second, but omega is in rad/s
+    omega-in-turns: your code multiplies omega by 2 pi, but omega is already in rad/s
     """
     return {
         "one-formula-for-all": (1 + zeta * omega * t) * np.exp(-zeta * omega * t),
@@ -98,8 +98,8 @@ def _(t, omega, zeta):
 @row.wrongs(hidden=HIDDEN)
 def _(t, omega, zeta):
     """window-around-one: your code also uses the formula for zeta = 1 for values of
-      zeta near 1, where it is not accurate. Use this formula only if zeta equals 1 up
-      to rounding, for example within 1e-9
+      zeta near 1, where this formula is not accurate. Use the formula only if zeta
+      equals 1 up to rounding, for example within 1e-9
     time-from-the-first: your code measures time from t[0]. The error should be 1 at t =
       0, even if t does not contain 0
     first-entry-one: your first entry is always 1. The error should be 1 only at t = 0
@@ -120,9 +120,9 @@ def _(t, omega, zeta):
       error does not start at rest
     weights-swapped: for zeta above 1 the weights of your two exponentials are swapped,
       so the error does not start at rest
-    weights-summed: for zeta above 1 your curve does not start at rest. With two
-      exponentials, subtract the weighted terms and the rates instead of adding them.
-      With cosh and sinh, invert the factor of sinh
+    weights-summed: for zeta above 1 your error does not start at rest. In the formula
+      with two exponentials, subtract both the terms and the rates instead of adding
+      them. In the formula with cosh and sinh, your factor of sinh is inverted
     critical-above-one: for zeta above 1 your code returns the curve for zeta = 1, but
       the decay should be slower for a larger zeta
     """

@@ -31,7 +31,7 @@ def _(e, ed, kp, kd, g_at_q):
     gravity-through-the-gain: your code multiplies the gravity torque by kp, but gains
       apply only to errors. Add the gravity torque to the PD torque
     gravity-at-the-goal-only: your code returns only the gravity torque where e is 0,
-      and only the PD torque elsewhere. It should always return the sum of both
+      and only the PD torque elsewhere. Always return the sum of both torques
     gravity-at-rest-only: your code adds the gravity torque only where ed is 0, but
       gravity also acts on a moving arm
     nothing-at-the-goal: your result is 0 where e is 0, but the motors must also support
@@ -48,7 +48,7 @@ def _(e, ed, kp, kd, g_at_q):
     }
 
 
-row.reached_by("pd_torque", "your gravity torque is correct, but in the PD torque ")
+row.reached_by("pd_torque", "in the PD torque, ")
 
 
 @row.right  # Gravity as an offset of the goal.

@@ -17,7 +17,7 @@ def one_gain(inputs, gains="each of kp and kd", lab="KP and KD"):
     says = (
         f"Your function is correct if {gains} has 7 entries, but it fails or is wrong "
         f"for a single number, as in the lab's {lab}. Which multiplication operator "
-        f"accepts both?"
+        f"accepts arrays and single numbers?"
     )
     return HeldOut("one-number-as-gain", says, inputs)
 
@@ -29,8 +29,8 @@ def wrapped(angle):
 
 WRAPPED = Change(
     "error-wrapped",
-    "your code wraps {name} to [-pi, pi], but these joints have limits, so e and "
-    "e + 2 pi are different errors",
+    "your code wraps {name} to [-pi, pi]. These joints have limits, so e and e + 2 pi "
+    "are different errors",
     wrapped,
     hidden="no error there exceeds half a turn",
 )

@@ -22,9 +22,9 @@ def _(h):
       matrix has the eigenvalue -1
     larger-root: your result is the larger root of the quadratic equation, but the loop
       already becomes unstable at the smaller root
-    nyquist: your result pi / h is the Nyquist frequency. It limits which signals can be
-      sampled, not which loop is stable
-    in-hertz: your result is in Hz, but it should be in rad/s
+    nyquist: your result pi / h is the Nyquist frequency. The Nyquist frequency limits
+      which signals can be sampled, not which loop is stable
+    in-hertz: your result is in Hz. The function should return rad/s
     """
     return {
         "undamped-limit": 2.0 / h,

@@ -34,7 +34,7 @@ def _(q_goal, g_at_q, kp):
     """sag-in-degrees: your code converts the steady-state error to degrees, but the
       goal is in radians
     answer-wrapped: your code wraps the angle to [-pi, pi]. The joints have limits, so q
-      and q + 2 pi are different, and joint6 can move beyond pi
+      and q + 2 pi are different configurations, and joint6 can move beyond pi
     """
     return {
         "sag-in-degrees": q_goal - np.rad2deg(g_at_q / kp),

@@ -17,10 +17,9 @@ def _(rng):
 
 @row.wrongs
 def _(omega, zeta):
-    """root-of-omega: your kd contains the square root of omega. In 2 zeta sqrt(k), k is
-      the stiffness, and omega already equals sqrt(k)
-    omega-in-turns: your code multiplies omega by 2 pi as if it were in revolutions per
-      second, but omega is in rad/s
+    """root-of-omega: your kd contains the square root of omega. In the formula 2 zeta
+      sqrt(k), k is the stiffness, and omega equals sqrt(k)
+    omega-in-turns: your code multiplies omega by 2 pi, but omega is already in rad/s
     """
     turns = 2.0 * np.pi * omega
     return {

@@ -12,12 +12,12 @@ row.inputs(springs)
 
 @row.wrongs
 def _(e, ed, kp, kd):
-    """one-gain-for-all: all joints in your code use the first joint's gains, but each
+    """one-gain-for-all: all joints in your code use the gains of the first joint. Each
       joint has its own gains
     summed-over-joints: your expression `kp @ e` is a dot product, which sums over the
       joints. Multiply entry by entry, because each joint has its own torque
-    mean-gains: all joints in your code use the mean of the gains, but each joint has
-      its own gains
+    mean-gains: all joints in your code use the mean of the gains. Each joint has its
+      own gains
     """
     return {
         "one-gain-for-all": lambda: kp[0] * e + kd[0] * ed,

@@ -86,19 +86,19 @@ def _(e, ed, integral, ki, dt, clamp):
     trapezoid-of-the-error 2: your code averages e with the error of the next step. The
       integral should grow by e dt
     old-sum-clamped: your code clamps the old integral before it adds e dt. Clamp the
-      integral after this addition
+      integral after the addition of e dt
     error-clamped: your code clamps the error instead of the integral, so the integral
       can still grow without bound. Clamp the integral after the addition of e dt
     step-clamped: your code clamps only e dt, so the integral can still grow without
-      bound. Clamp the integral after this addition
+      bound. Clamp the integral after the addition of e dt
     frozen-at-the-limit: your code keeps the old integral if the new integral exceeds
       the limit. Clamp the new integral to the limit
-    emptied-at-the-limit: your code resets the integral to 0 if it exceeds the limit.
-      Clamp the integral to the limit instead
-    clamped-on-one-side: your code clamps the integral only at the upper limit. Clamp it
-      at the lower limit too
+    emptied-at-the-limit: your code resets the integral to 0 if the integral exceeds the
+      limit. Clamp the integral to the limit instead
+    clamped-on-one-side: your code clamps the integral only at the upper limit. Clamp
+      the integral at the lower limit too
     clamped-on-one-side 2: your code clamps the integral only at the lower limit. Clamp
-      it at the upper limit too
+      the integral at the upper limit too
     never-negative: your code clamps the integral to the range from 0 to `clamp`. The
       lower limit should be -clamp
     clamped-as-a-vector: your code limits the norm of the integral to `clamp`. Clamp
@@ -108,7 +108,7 @@ def _(e, ed, integral, ki, dt, clamp):
     old-sum-clamped 2: your code clamps the old integral and e dt separately. Clamp
       their sum
     frozen-at-the-limit 2: in your code, an integral at its limit never changes again.
-      An error of the opposite sign should reduce it
+      An error of the opposite sign should reduce the integral
     """
     step = e * dt
     new = integral + e * dt

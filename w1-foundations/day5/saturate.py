@@ -24,14 +24,14 @@ def _(rng):
 
 @row.wrongs
 def _(tau, limits):
-    """above-only: your code clamps torques only at the upper limit, so for example -100
-      N m remains unchanged
-    below-only: your code clamps torques only at the lower limit. Clamp them at the
-      upper limit too
+    """above-only: your code clamps torques only at the upper limit. Clamp the torques
+      at the lower limit too
+    below-only: your code clamps torques only at the lower limit. Clamp the torques at
+      the upper limit too
     sign-lost: in your code, a negative torque beyond its limit becomes positive. Clamp
-      it to minus the limit
-    limits-typed-in: your code contains the Panda's limits, 87 and 12 N m, as fixed
-      numbers. Use the argument `limits`, because another arm has other limits
+      this torque to minus the limit
+    limits-typed-in: your code uses the constants 87 and 12 N m, the limits of the
+      Panda. Use the argument `limits`, because another arm has other limits
     smallest-limit-for-all: all joints in your code use the smallest limit, but each
       motor has its own limit
     all-scaled-down: in your code, one motor at its limit scales all seven torques down,
@@ -56,13 +56,13 @@ def _(tau, limits):
     """switched-off: in your code, a torque beyond its limit becomes 0, but the motor
       can still supply its maximum torque
     the-larger-one: your code returns the torque or its limit, whichever is larger in
-      magnitude. Return the smaller magnitude, with the sign of the torque
+      magnitude. Use the smaller magnitude with the sign of the torque
     always-full: in your code, every torque becomes plus or minus its limit. A torque
       within the limits should not change
     one-over-stops-all: in your code, one torque beyond its limit makes all seven
       torques 0, but the other motors can still supply their torques
     nothing-within-the-limits: your result is 0 if all torques are within their limits.
-      Such torques should not change
+      Torques within their limits should not change
     first-limit-typed-in: your code uses the limit 87 N m for all joints. Use each
       motor's own entry in `limits`
     all-positive: in your code, all torques become positive, but a motor can act in both

@@ -54,14 +54,14 @@ def bias(
 @row.wrongs
 def _(J_space, qd, p):
     """of-the-origin: your code returns the rate of change of the twist, the sum of
-      ad(V) S qd. Its linear part belongs to the world origin and has to be converted to
-      the point p
+      ad(V) S qd. The linear part of this sum belongs to the world origin and has to be
+      converted to the point p
     no-centripetal: your code omits the term omega x (velocity of p), but a point on a
       circle accelerates towards the centre even at constant speed
     no-alpha-cross-p: your code omits the term alpha x p, so the linear acceleration
       belongs to the world origin and not to p
-    velocity-of-origin: your code uses omega x v, where v is the velocity of the point
-      at the world origin. The point p has the velocity v + omega x p
+    velocity-of-origin: your code uses omega x v, where v is the velocity of the body
+      point at the world origin. The point p has the velocity v + omega x p
     v-forgotten: your code computes the velocity of p as omega x p. This velocity should
       also contain v
     coriolis-twice: your code adds omega x v twice, but ad(V) S already contains this
@@ -69,18 +69,18 @@ def _(J_space, qd, p):
       frame
     centripetal-twice: your code adds omega x (velocity of p) twice, but the factor 2
       belongs to the Coriolis acceleration in a rotating frame
-    p-sign: your code swaps the factors of the cross products with p, but p x omega is
-      -(omega x p)
-    ad-swapped: your code swaps V and S in ad(V) S, which reverses the sign, or it sums
-      the twists from the tip instead of the base
-    ad-transposed: your code transposes ad(V). The transpose maps wrenches, but screws
-      need ad(V) itself
+    p-sign: your code swaps the two factors of each cross product with p, which reverses
+      the sign of the product
+    ad-swapped: either your code swaps V and S in ad(V) S, or it sums the twists from
+      the tip instead of the base. Both mistakes reverse the sign
+    ad-transposed: your code transposes ad(V). The transpose belongs to wrenches, but
+      screws need ad(V) itself
     ad-half: your ad(V) lacks its lower left block [v], but the linear velocity changes
       the linear half of a twist
-    twist-of-the-hand: every joint in your code uses the twist of the hand. Joint i
-      should use the twist of link i, which only joints 1 to i cause. Because ad(V) V is
-      0, your sum vanishes
-    qd-once: your code does not multiply the screws by their own joint velocities. The
+    twist-of-the-hand: every joint in your code uses the twist of the hand, so your sum
+      is ad(V) V, which is 0. Joint i should use the twist of link i, which depends only
+      on joints 1 to i
+    qd-once: your code does not multiply each screw by the velocity of its joint. The
       sum should contain ad(V) S qd
     """
     changed = {

@@ -41,8 +41,8 @@ def by_modes(K, L):
 
 @row.wrongs
 def _(K, Lambda):
-    """Lambda-ignored: your code does not use `Lambda`, but 2 sqrt(K) is the critical
-      damping of a unit mass
+    """Lambda-ignored: your code does not use `Lambda`. The result 2 sqrt(K) is the
+      critical damping of a unit mass
     another-design: your code returns another critically damped design, which
       diagonalises Lambda and K together. The task requires the sum of the two products
       of sqrt(Lambda) and sqrt(K)
@@ -50,17 +50,18 @@ def _(K, Lambda):
       Lambda, but Lambda couples the axes
     one-order-only: your code adds the same product of the two roots twice. Add the
       products in both orders, so that the result is symmetric
-    half-of-it: your code uses only one of the two products. Add the product in the
-      opposite order
-    factor-two: your result contains an extra factor 2. For single numbers k and m, the
-      sum of the two products is already 2 sqrt(k m)
-    factor-two-missing: your code averages the two products. It should add them
+    half-of-it: your code uses only one of the two products. Add the product with the
+      factors in the opposite order
+    factor-two: your result contains an extra factor of 2. For single numbers k and m,
+      the sum of the two products is already 2 sqrt(k m)
+    factor-two-missing: your code averages the two products instead of adding them
     root-on-both-sides: your code has sqrt(Lambda) on both sides of sqrt(K), so the
-      result grows with the mass. It should grow with the square root of the mass
+      result is proportional to the mass. The result should be proportional to the
+      square root of the mass
     root-of-the-product: your code computes 2 sqrt(K Lambda) entry by entry. Use the
       matrix square root of Lambda
-    cholesky: your code uses a Cholesky factor L instead of the square root, but Lambda
-      is L L^T and not L L
+    cholesky: your code uses a Cholesky factor L instead of the matrix square root, but
+      Lambda equals L L^T, not L L
     """
     k = np.sqrt(K)
     half = root(Lambda)
@@ -86,9 +87,9 @@ def _(K, Lambda):
     eigenvectors-transposed: your code transposes the eigenvectors. The columns of V are
       the eigenvectors, so the square root is V diag(sqrt(values)) V^T
     eigenvalues-not-rooted-back: your square root diag(sqrt(values)) is expressed in the
-      eigenvector basis. Transform it back with V
-    cholesky: your code uses a Cholesky factor L instead of the square root, but Lambda
-      is L L^T and not L L
+      basis of the eigenvectors. Transform the square root back with V
+    cholesky: your code uses a Cholesky factor L instead of the matrix square root, but
+      Lambda equals L L^T, not L L
     entries-square-rooted 2: your code takes the root of the absolute value of each
       entry, but the matrix square root X satisfies X X = Lambda
     eigenvectors-transposed 2: your code omits the last transpose. The square root is V

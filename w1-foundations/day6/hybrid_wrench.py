@@ -40,12 +40,12 @@ def _(e, V_err, K, D, force):
       The last three entries are the force, so the force along z is entry 5
     spring-everywhere: your code does not use the argument `force`, so the result is the
       impedance wrench in all six directions
-    along-x: your force acts along x. It should act along z
-    spring-couples-into-z: in your code, the errors in the other five directions still
-      contribute to the force along z through K. Remove the whole spring force along z
+    along-x: your force acts along x. The force should act along z
+    spring-couples-into-z: in your code, the off-diagonal entries of K still produce a
+      force along z from the other five errors. Remove the whole spring force along z
     column-in-place-of-row: your code sets the error along z to 0, which removes the
-      last column of K. Remove the spring force along z, which comes from the last row
-      of K
+      last column of K. Remove the spring force along z instead, which comes from the
+      last row of K
     """
     spring, damper = K @ e, D @ V_err
     both = spring + damper

@@ -35,10 +35,10 @@ def _(J, wrench, bias, damping, qd, tau_null):
       the motors must supply
     damping-sign: your damping torque has the wrong sign. Damping opposes the motion, so
       the motors must supply the torque `damping` times qd
-    bias-six-times: your code adds `bias` once for each of the six rows of J. Add it
+    bias-six-times: your code adds `bias` once for each of the six rows of J. Add `bias`
       only once
-    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). The
-      pseudo-inverse maps velocities, but J^T maps wrenches to torques
+    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T,
+      because J^T maps wrenches to torques
     """
     push = J.T @ wrench
     rub = damping * qd

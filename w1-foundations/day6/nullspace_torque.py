@@ -39,26 +39,27 @@ def _(rng):
 
 @row.wrongs
 def _(J, M, Lambda, tau):
-    """another-projector: your result does not accelerate the hand, but your code
-      subtracts a torque that is not J^T times a wrench. Compute this wrench with Lambda
-    acceleration: your code returns a joint acceleration that does not move the hand.
-      Multiply it by M to get a torque
+    """another-projector: your result does not accelerate the hand, but the task asks
+      for another projection of tau. Subtract J^T times a wrench from tau, and compute
+      this wrench with Lambda
+    acceleration: your code returns a joint acceleration that does not accelerate the
+      hand. Multiply this acceleration by M to get a torque
     not-projected: your code returns tau unchanged, so tau also accelerates the hand
-    kinematic-projector: your projector I - J^+ J acts on joint velocities, not on
-      torques, because the acceleration from a torque depends on M. The arm still draws
-      the circle, but the hand accelerates by several m/s2
-    M-for-identity: your code multiplies tau by M before the subtraction. M tau has the
-      unit kg m2 times N m, so it is not a torque
-    projector-transposed: your projector is transposed. M^-1 J^T Lambda J acts on joint
-      accelerations, but in the projector for torques M^-1 is on the right
+    kinematic-projector: your code uses the projector for joint velocities, I - J^+ J
+      with the identity matrix I. A projector for torques also depends on M. The arm
+      still draws the circle, but the hand accelerates by several m/s2
+    M-for-identity: your code multiplies tau by M before the subtraction. The product M
+      tau is not a torque, because its unit is kg m2 times N m
+    projector-transposed: your projector is transposed. The product M^-1 J^T Lambda J
+      acts on joint accelerations, but in the projector for torques M^-1 is on the right
     the-other-part: your code returns the part of tau that accelerates the hand.
       Subtract this part from tau
     position-only: your code removes only the linear acceleration of the hand, so the
       hand still rotates
-    pinv-for-transpose: your code maps the wrench to the joints with pinv(J), but J^T
-      maps wrenches to torques
-    pinv-of-transpose: your projector I - J^T pinv(J^T) acts on joint velocities, not on
-      torques, because the acceleration from a torque depends on M
+    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T,
+      because J^T maps wrenches to torques
+    pinv-of-transpose: your code uses the projector for joint velocities, I - J^T
+      pinv(J^T) with the identity matrix I. A projector for torques also depends on M
     """
     acc = solve(M, tau)
     a = J @ acc

@@ -30,10 +30,10 @@ def _(rng):
 def _(J, Lambda, bias, bias_acc, acc):
     """bias-sign: your bias term has the wrong sign. The argument `bias` is the torque
       that the motors must supply
-    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). The
-      pseudo-inverse maps velocities, but J^T maps wrenches to torques
+    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T,
+      because J^T maps wrenches to torques
     site-bias-not-weighed: your code subtracts bias_acc after the product with Lambda,
-      but bias_acc is an acceleration. Subtract it from acc first
+      but bias_acc is an acceleration. Subtract bias_acc from acc first
     acc-sign: your code computes bias_acc - acc instead of acc - bias_acc, so the hand
       accelerates in the opposite direction
     force-alone: your code applies only the force and omits the moment. J^T has six
@@ -41,7 +41,8 @@ def _(J, Lambda, bias, bias_acc, acc):
     halves-swapped: your accelerations are in the order (linear; angular), but the
       angular part comes first
     bias-at-the-hand: your code adds J times `bias` to the wrench before the product
-      with J^T, but `bias` is already a joint torque. Add it after this product
+      with J^T. The argument `bias` is already a joint torque, so add it after this
+      product
     """
     own = acc - bias_acc
     push = J.T @ Lambda @ own

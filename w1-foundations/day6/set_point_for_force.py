@@ -24,12 +24,12 @@ def _(rng):
 
 @row.wrongs
 def _(force, k, surface):
-    """millimetres: your depth is in millimetres, but all lengths should be in metres
+    """millimetres: your depth is in millimetres. All lengths should be in metres
     whole-metres: your operator // rounds the depth down to whole metres. Use /
-    docstrings-numbers: your k is always 400, the value in the docstring. Use the
-      argument `k`
-    docstrings-numbers 2: your surface is always at 0.42, the value in the docstring.
-      Use the argument `surface`
+    docstrings-numbers: your stiffness is always 400, the value in the docstring. Use
+      the argument `k`
+    docstrings-numbers 2: your surface is always at the height 0.42, the value in the
+      docstring. Use the argument `surface`
     never-below-zero: your code replaces negative heights by 0, but the commanded height
       can be negative
     newtons-as-weight: your code divides the force by 9.81, which gives a mass. Use the

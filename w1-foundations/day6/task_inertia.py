@@ -54,17 +54,20 @@ def inertia(J: Array, M: Array) -> Array:
 def _(J, M):
     """inverse-forgotten: your code returns the inverse of Lambda, which maps a wrench
       to an acceleration. Lambda should map an acceleration to a wrench
-    M-not-inverted: your code uses M between J and J^T. Use M^-1, because M^-1 maps the
+    M-not-inverted: your code uses J M J^T. Use M^-1 instead of M, because M^-1 maps the
       joint torques J^T F to joint accelerations
-    pinv-both-sides: your result pinv(J)^T M pinv(J) is correct for an arm of six
-      joints. A seventh joint can also give way, so the hand has less inertia
+    pinv-both-sides: your result pinv(J)^T M pinv(J) is correct only for an arm with six
+      joints. With a seventh joint, the arm can also move internally, so the inertia at
+      the hand is smaller
     armature-left-out: your code subtracts the armature (the rotor inertia of the
       motors) from M, but the rotors rotate with the joints and contribute to the
       inertia at the hand
-    armature-twice: your code adds the armature to M, but M already contains it
+    armature-twice: your code adds the armature to M, but M already contains the
+      armature
     diagonal-inverted: your code inverts only the diagonal of J M^-1 J^T. The six
       directions are coupled, so invert the whole matrix
-    entries-inverted: your expression 1 / A inverts each entry. Use the matrix inverse
+    entries-inverted: your code takes the reciprocal of each entry. Use the matrix
+      inverse
     blocks-alone: your code inverts the two 3x3 blocks separately. A force also rotates
       the hand, so invert the whole 6x6 matrix
     """

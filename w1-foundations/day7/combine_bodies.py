@@ -45,21 +45,21 @@ def whole(m1, c1, I1, m2, c2, I2, c, theorem=parallel_axes):
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
     """no-parallel-axes: your code adds the two inertias unchanged. Each inertia is
-      about its own centre of mass, so move both to the common centre first
-    about-the-origin: your inertia is about the origin of the frame. It should be about
-      the common centre of mass
+      about its own centre of mass, so move both inertias to the common centre first
+    about-the-origin: your inertia is about the origin of the frame. The inertia should
+      be about the common centre of mass
     only-the-second-moved: your code moves only the second inertia to the common centre
       of mass. The first body's centre of mass also differs from the common centre, so
-      move both
+      move both inertias
     only-the-first-moved: your code moves only the first inertia to the common centre of
       mass. The second body's centre of mass also differs from the common centre, so
-      move both
-    about-the-first-centre: your inertia is about the first body's centre of mass. It
-      should be about the common centre of mass
+      move both inertias
+    about-the-first-centre: your inertia is about the first body's centre of mass. The
+      inertia should be about the common centre of mass
     distance-of-the-two: your parallel-axis theorem uses the distance between the two
       centres of mass. Use the distance of each centre of mass from the common centre
     mass-not-in-the-theorem: your parallel-axis theorem lacks the mass of the body. The
-      theorem adds m ((d . d) E - d d^T), where E is the identity
+      theorem adds m ((d . d) E - d d^T), where E is the identity matrix
     total-mass-for-each: your parallel-axis theorem uses the total mass for each body.
       Use the mass of the body whose inertia is moved
     """
@@ -84,8 +84,8 @@ def _(m1, c1, I1, m2, c2, I2):
 def _(m1, c1, I1, m2, c2, I2):
     """products-not-moved: your parallel-axis theorem changes only the moments of
       inertia, but the outer product d d^T also has off-diagonal entries
-    distance-not-squared: your parallel-axis theorem uses the distance itself. It should
-      use the squared distance d . d
+    distance-not-squared: your parallel-axis theorem uses the distance itself. Use the
+      squared distance d . d
     """
     c = centre(m1, c1, m2, c2)
     theorems = {
@@ -102,8 +102,8 @@ def _(m1, c1, I1, m2, c2, I2):
     """plain-mean: your common centre is the midpoint of the two centres of mass. Weight
       each centre by the mass of its body
     not-divided-by-the-mass: your code does not divide the sum of m c by the total mass
-    first-centre-kept: your code sets the common centre of mass to c1. It should be the
-      mean of c1 and c2, weighted by the masses
+    first-centre-kept: your code sets the common centre of mass to c1. The common centre
+      should be the mean of c1 and c2, weighted by the masses
     """
     centres = {
         "plain-mean": (c1 + c2) / 2,
@@ -117,12 +117,12 @@ def _(m1, c1, I1, m2, c2, I2):
 def _(m1, c1, I1, m2, c2, I2):
     """by-rows: the six entries of your inertia are in the order xx, xy, xz, yy, yz, zz.
       The three diagonal entries should come first
-    xy-last: your last three entries are in the order yz, xz, xy. They should be in the
-      order xy, xz, yz
-    products-negated: your last three entries have the opposite sign. They are entries
-      of the inertia matrix, so xy is the sum of -m x y
-    mass-of-the-first: your mass includes only the first body. It should be the mass of
-      both bodies
+    xy-last: your last three entries are in the order yz, xz, xy. The order should be
+      xy, xz, yz
+    products-negated: your last three entries have the wrong sign. They should be
+      entries of the inertia matrix, so xy is the sum of -m x y
+    mass-of-the-first: your mass includes only the first body. Add the mass of the
+      second body
     """
     right = combine_bodies(m1, c1, I1, m2, c2, I2)
     return {

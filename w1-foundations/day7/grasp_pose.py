@@ -40,7 +40,7 @@ def tool(T_world_cube, above, yaw):
 @row.wrongs
 def _(T_world_cube, above):
     """yaw-not-folded: your tool has the full yaw of the cube. A rotation by 90 degrees
-      does not change a cube, so a yaw within 45 degrees of 0 is enough
+      does not change a cube, so use the equivalent yaw between -45 and 45 degrees
     folded-to-90: your tool has a yaw between 0 and 90 degrees. The yaw should be
       between -45 and 45 degrees
     rounded-towards-zero: your code truncates the number of quarter turns, so a yaw of
@@ -67,9 +67,10 @@ def _(T_world_cube, above):
 
 @row.wrongs
 def _(T_world_cube, above):
-    """tool-up: the z axis of your tool points up. It should point down
-    about-y: your tool is turned over about its y axis, so at yaw 0 its x axis points
-      backwards. At yaw 0, this axis should be the world x axis
+    """tool-up: the z axis of your tool points up. The z axis should point down
+    about-y: your code turns the tool over about its y axis, so at yaw 0 the x axis of
+      the tool points backwards. At yaw 0, the x axis of the tool should be the world x
+      axis
     left-handed: your code reverses only the z axis, so the matrix is a reflection with
       determinant -1. A rotation reverses two axes
     """

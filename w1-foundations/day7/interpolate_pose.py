@@ -59,20 +59,20 @@ def line(T0, T1, s, turn):
 def _(T0, T1, s):
     """by-entries: your code interpolates the entries of R linearly, so the result
       between the two ends is not a rotation matrix
-    entries-made-a-rotation: your code interpolates the entries of R linearly and
-      projects the result onto the rotation matrices, so the angular velocity is not
-      constant
+    entries-made-a-rotation: your code interpolates the entries of R linearly and then
+      computes the nearest rotation matrix, so the angular velocity is not constant
     nlerp: your code interpolates the quaternions linearly and normalises the result, so
       the angular velocity varies
-    turn-in-world-axes: your rotation R1 R0^T is expressed in the world frame, so it
-      should multiply R0 from the left, not from the right
-    turn-on-the-left: your rotation R0^T R1 is expressed in the first frame, so it
-      should multiply R0 from the right, not from the left
+    turn-in-world-axes: your rotation R1 R0^T is expressed in the world frame. Multiply
+      R0 by this rotation from the left, not from the right
+    turn-on-the-left: your rotation R0^T R1 is expressed in the first frame. Multiply R0
+      by this rotation from the right, not from the left
     turn-backwards: your rotation is in the opposite direction, because R1^T R0 is the
       rotation from R1 to R0
     logarithms-mixed: your code interpolates the rotation vectors of R0 and R1 linearly,
       but rotations about different axes do not add
-    not-turned: your orientation is R0 for every s. It should reach R1 at s = 1
+    not-turned: your orientation is R0 for every s. The orientation should reach R1 at s
+      = 1
     turned-at-once: your orientation is R1 for every s. Multiply the angle of the
       rotation by s
     """
@@ -94,8 +94,8 @@ def _(T0, T1, s):
 
 @row.wrong
 def screw_motion(T0, T1, s):
-    """your path is the screw motion from T0 to T1, whose origin moves along a curve.
-    The task requires a straight line"""
+    """your code follows the screw motion from T0 to T1, so the origin moves along a
+    curve. The task requires a straight line"""
     T = se3.inverse(T0) @ T1
     w = log_rotation(T[:3, :3])
     p = T[:3, 3]

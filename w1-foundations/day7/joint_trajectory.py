@@ -41,11 +41,12 @@ def _(q0, q1, t, T):
     rates-of-the-goal: your velocity and acceleration use q1 instead of the displacement
       q1 - q0
     rates-divided-again: your code divides the velocity and the acceleration by powers
-      of the duration, but sd and sdd are already derivatives with respect to t
+      of the duration. Omit these divisions, because sd and sdd are already derivatives
+      with respect to t
     q-wrapped: your code wraps the angles to [-pi, pi], but a joint angle with limits is
       not periodic. For example, joint6 can reach 3.75 rad
     way-wrapped: your code wraps the displacement to [-pi, pi], but a joint cannot
-      rotate past its limits to shorten its path
+      rotate past its limits to take a shorter path
     """
     displacement = q1 - q0
     scaling = quintic_scaling(t, T)

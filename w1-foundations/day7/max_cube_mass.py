@@ -27,7 +27,7 @@ for g in (9.8, 10, 9.80665):
 
     @row.wrong(
         "another-gravity",
-        f"the gravity in your function is {g} m/s2, but the lab's GRAVITY is 9.81 m/s2",
+        f"your code uses {g} m/s2 for gravity, but the lab's GRAVITY is 9.81 m/s2",
     )
     def _(grip, mu, acceleration, g=g):
         return 2 * mu * grip / (g + acceleration)

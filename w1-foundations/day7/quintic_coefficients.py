@@ -47,8 +47,9 @@ def which_condition(case: Case) -> Finding | None:
     which = CONDITIONS[int(np.argmax(off))]
     return Finding(
         "one-condition-not-kept",
-        f"Your polynomial satisfies five of the six conditions, but not {which}. Look "
-        "at the row of the matrix for this condition and at its right-hand side.",
+        "Your polynomial satisfies five of the six conditions, but not the condition "
+        f"for {which}. Look at the row of the matrix for this condition and at its "
+        "right-hand side.",
     )
 
 
@@ -73,9 +74,10 @@ def _(rng):
 def _(start, end, T):
     """in-powers-of-x: your coefficients belong to powers of t / duration, but the task
       asks for powers of t
-    T-is-1: your conditions at the end are written for t = 1, so the duration has no
+    T-is-1: your code uses t = 1 in the conditions at the end, so the duration has no
       effect
-    cubic: your polynomial is a cubic, which omits both acceleration conditions
+    cubic: your polynomial is a cubic, which does not satisfy the two conditions for the
+      accelerations
     accelerations-zero: your code sets the accelerations at both ends to 0. Use the
       given accelerations
     rest-to-rest: your code sets the velocities and the accelerations at both ends to 0.
@@ -83,7 +85,8 @@ def _(start, end, T):
     two-forgotten: your matrix has 1 for t^2 in the row of the initial acceleration, but
       the second derivative of t^2 is 2
     conditions-mixed-up: your right-hand side alternates between start and end, but the
-      rows of your matrix do not. Use the same order in both
+      rows of your matrix do not. Use the same order in the matrix and in the right-hand
+      side
     """
     A = conditions(T)
     four = np.linalg.solve(A[[0, 1, 3, 4], :4], [*start[:2], *end[:2]])

@@ -57,8 +57,8 @@ def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERAT
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """least-of-all: your code returns the shortest of all durations, but the joint and
-      the limit with the longest duration determine the result
+    """least-of-all: your code returns the shortest of all durations, so the other
+      limits are violated. Use the longest duration
     added-up: your code adds the durations of all joints and limits, but the joints move
       at the same time. Use the longest duration
     """
@@ -68,14 +68,15 @@ def _(delta_q, v_max, a_max):
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """peak-of-the-cubic: your function uses 1.5, the maximum velocity of the cubic
-      scaling. The quintic is faster halfway and exceeds the limit by 25 %
-    peak-of-the-cubic 2: your function uses 6, the maximum acceleration of the cubic
-      scaling. The quintic has its maximum where the derivative of its acceleration is 0
-    peak-of-the-cubic 3: your function uses 1.5 and 6, the maximum velocity and
-      acceleration of the cubic scaling. The quintic has other maxima
-    peak-at-a-quarter: your function uses 5.625, the acceleration at a quarter of the
-      duration. The maximum occurs where the derivative of the acceleration is 0
+    """peak-of-the-cubic: your code uses 1.5, the maximum velocity of the cubic scaling.
+      The quintic is faster halfway and exceeds the limit by 25 %
+    peak-of-the-cubic 2: your code uses 6, the maximum acceleration of the cubic
+      scaling. The acceleration of the quintic has its maximum where the derivative of
+      the acceleration is 0
+    peak-of-the-cubic 3: your code uses 1.5 and 6, the maximum velocity and acceleration
+      of the cubic scaling. The quintic has other maxima
+    peak-at-a-quarter: your code uses 5.625, the acceleration at a quarter of the
+      duration. The maximum is at the time when the derivative of the acceleration is 0
     """
     peaks = {
         "peak-of-the-cubic": {"speed": 1.5},
@@ -99,7 +100,7 @@ def _(delta_q, v_max, a_max):
     shorter-of-two: your code returns the shorter of the two durations, which violates
       one of the limits
     shorter-of-two 2: each joint in your code takes the shorter of its two durations,
-      which violates one of its limits
+      which violates one of the two limits
     fastest-joint: your code returns the shortest duration of all joints, so the other
       joints violate their limits
     fastest-joint 2: your code uses the shortest duration of all joints for each limit,

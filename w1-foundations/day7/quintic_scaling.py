@@ -20,7 +20,7 @@ def by_quotients(case: Case) -> Finding | None:
     off = difference(case.S, case.T).max()
     return Finding(
         "difference-quotient",
-        f"s is exact, but sd or sdd is off by {off:.1e}, which is typical of a "
+        f"Your s is exact, but sd or sdd is off by {off:.1e}, which is typical of a "
         "difference quotient. Differentiate the polynomial by hand.",
     )
 
@@ -45,10 +45,10 @@ def polynomial(coefficients, x, T):
 
 def jumps(t, T):
     """cubic: your s is the cubic 3 x^2 - 2 x^3, whose acceleration jumps at both ends.
-      The acceleration of the quintic is 0 there
+      The acceleration of the quintic is 0 at both ends
     linear: your s grows at a constant rate, so the velocity jumps at both ends
     cosine: your s is (1 - cos(pi x)) / 2, whose acceleration jumps at both ends. The
-      acceleration of the quintic is 0 there
+      acceleration of the quintic is 0 at both ends
     """
     x = np.clip(t / T, 0.0, 1.0)
     a = np.pi * x
@@ -79,18 +79,18 @@ def _(t, T):
     6-and-10-swapped: your code swaps the coefficients 6 and 10. At the end s is 1, but
       the velocity is not 0
     sd-and-sdd-not-divided: your sd and sdd are derivatives with respect to x = t /
-      duration. By the chain rule, sd has to be divided by the duration, and sdd by its
-      square
+      duration. By the chain rule, divide sd by the duration and sdd by the square of
+      the duration
     t-for-x: your code evaluates the polynomial at t instead of t / duration, so the
       duration has no effect
-    not-divided+not-clipped: your code does not divide sd and sdd by the duration and
-      its square, respectively, and it evaluates the polynomial before the start and
-      after the end
+    not-divided+not-clipped: your sd and sdd are derivatives with respect to x = t /
+      duration instead of t. Your code also evaluates the polynomial before the start
+      and after the end
     end-not-clipped: your code handles t < 0 but not t > duration, so it evaluates the
       polynomial after the end. For t > duration, use s = 1 with zero velocity and
       acceleration, because the robot is at rest again
     never-clipped: your code also evaluates the polynomial before the start and after
-      the end, but there the robot should be at rest
+      the end, when the robot should be at rest
     start-not-clipped: your code handles t > duration but not t < 0, so it evaluates the
       polynomial before the start. For t < 0, use s = 0 with zero velocity and
       acceleration, because the robot is still at rest
@@ -116,12 +116,12 @@ def _(t, T):
     sdd-not-divided: your sdd is the derivative with respect to x = t / duration. By the
       chain rule, the second derivative with respect to t also has the factor 1 /
       duration^2
-    sdd-divided-once: your code divides sdd by the duration only once, but sdd is a
-      second derivative
-    multiplied-by-T: your code multiplies sd and sdd by the duration. By the chain rule,
-      it should divide instead
-    only-s-clipped: your code clamps s at both ends, but not sd and sdd. They should be
-      0 before the start and after the end
+    sdd-divided-once: your code divides sdd by the duration only once. Divide twice,
+      because sdd is a second derivative
+    multiplied-by-T: your code multiplies sd and sdd by powers of the duration. By the
+      chain rule, divide by these powers instead
+    only-s-clipped: your code clamps s at both ends, but not sd and sdd. Both
+      derivatives should be 0 before the start and after the end
     """
     right = quintic_scaling(t, T)
     return {

@@ -67,18 +67,18 @@ def to_top(t, L, a, top):
 
 @row.wrongs
 def _(t, L, v, a):
-    """no-triangle: your highest velocity is always v. If L is short, the arm must
-      decelerate before it reaches v
+    """no-triangle: your maximum velocity is always v. If L is short, the arm has to
+      decelerate before the velocity reaches v
     triangle-too-late: your profile is a triangle only for L < v^2 / (2 a), the distance
       of one ramp. The profile has two such ramps
     triangle-too-soon: your profile is a triangle for all L < 2 v^2 / a, so its velocity
       can exceed v. The two ramps together cover v^2 / a
     triangle-too-high: your triangle has the height sqrt(2 L a), so its area is not L.
-      The acceleration takes only half of its base
+      The acceleration takes only half of the base of the triangle
     triangle-too-low: your triangle has the height sqrt(L a / 2), so its area is not L.
       The acceleration and the deceleration should each cover L / 2
     triangle-not-a-root: your triangle has the height L a, which is a squared velocity.
-      Take its square root
+      Take the square root of L a
     """
     peak = np.sqrt(L * a)
     short = v**2 > L * a  # L is too short to reach v
@@ -95,14 +95,14 @@ def _(t, L, v, a):
 
 @row.wrongs
 def _(t, L, v, a):
-    """ramps-way-forgotten: your phase of constant velocity starts at the position 0. It
-      should start at the position where the acceleration phase ends
-    does-not-stop: your acceleration is still -a after the end, so the arm moves
-      backwards. It should be 0, because the arm is at rest
-    does-not-wait: your acceleration is a before the start. It should be 0, because the
-      arm is at rest
-    does-not-wait-or-stop: your acceleration is a before the start and -a after the end.
-      It should be 0 there, because the arm is at rest
+    """ramps-way-forgotten: your phase of constant velocity starts at the position 0.
+      This phase should start at the position where the acceleration phase ends
+    does-not-stop: your acceleration is still `-a` after the end, so the arm moves
+      backwards. The acceleration should be 0, because the arm is at rest
+    does-not-wait: your acceleration is already `a` before the start. The acceleration
+      should be 0, because the arm is at rest
+    does-not-wait-or-stop: your acceleration is already `a` before the start and still
+      `-a` after the end. Both values should be 0, because the arm is at rest
     """
     top, ramp, T = timing(L, v, a)
     left = T - t

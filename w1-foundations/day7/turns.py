@@ -52,17 +52,17 @@ TURNS = [
     HeldOut(
         "half-turn-for-none",
         "Your function is correct except for a rotation by 180 degrees, where the "
-        "orientation at s = 1 is still R0. The sine of the angle is 0 there, as it is "
-        "without a rotation. Which quantity distinguishes these two cases?",
+        "orientation at s = 1 is still R0. The sine of 180 degrees is 0, like the sine "
+        "of 0 degrees. Which quantity distinguishes these two angles?",
         _half,
         mistaken=_not_turned,
     ),
     HeldOut(
         "wrong-at-pi",
         "Your function is correct except for rotations by 180 degrees or slightly "
-        "less. With R = R0^T R1, R - R^T is nearly 0 there and does not determine the "
-        "axis. R + R^T determines the axis, including the relative signs of its "
-        "components.",
+        "less. For such a rotation R = R0^T R1, the matrix R - R^T is nearly 0 and "
+        "does not determine the axis. Use R + R^T, which contains the components of "
+        "the axis and their relative signs.",
         _half_or_nearly,
     ),
     HeldOut(
@@ -77,7 +77,7 @@ TURNS = [
     HeldOut(
         "wrong-near-0",
         "Your function is correct except for rotations by 2 degrees or less. Which "
-        "case of your function replaces the general formula there?",
+        "special case of your function handles such small angles?",
         _small,
     ),
 ]

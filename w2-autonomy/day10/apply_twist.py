@@ -54,23 +54,27 @@ def exp_of(xi):
 
 @row.wrongs
 def _(T, xi):
-    """on-the-right: your exponential multiplies T on the right, as for a twist in the
-      moved frame. The twist xi is expressed in the frame in which T is given
-    apart: your code rotates R and adds v to t, but a rotation about the origin moves t
-      as well
+    """on-the-right: your code computes T exp([xi]), as for a twist in the moving frame.
+      The twist xi is expressed in the frame in which T is given, so the exponential
+      belongs on the left
+    apart: your code rotates R and adds v to t. A rotation about the origin moves t as
+      well, so multiply T by the whole exponential
     first-order: your result is T + [xi] T, which is not a rigid transform. Use the
       exponential
-    t-not-turned: your code does not rotate t, but a rotation about the origin moves t
-      as well
+    t-not-turned: your code does not rotate t. A rotation about the origin moves t as
+      well, so multiply T by the whole exponential
     v-as-translation: the translation in your exponential is v, which is correct only if
-      omega is 0 or parallel to v
-    length-lost: your code normalises xi and uses the angle 1, but the angle is the norm
-      of omega
-    slides-left-out: if omega is 0, your code returns T unchanged. The motion is then a
-      translation by v
-    identity-where-still: your code returns the identity for xi = 0. Return T
-    turns-only: your code does not use v, the linear part of xi
-    slides-only: your code does not use omega, the angular part of xi
+      omega is 0 or parallel to v. Use the translation of the matrix exponential instead
+    length-lost: your code normalises xi, so the rotation angle is 1 rad. The angle
+      should be the norm of omega
+    slides-left-out: if omega is 0, your code returns T unchanged. Translate T by v
+      instead
+    identity-where-still: your code returns the identity matrix for xi = 0. Return T
+      instead
+    turns-only: your code does not use v, the linear part of xi. Use the exponential of
+      the whole twist
+    slides-only: your code does not use omega, the angular part of xi. Use the
+      exponential of the whole twist
     """
     E = exp_of(xi)
     W = np.zeros((4, 4))
@@ -102,7 +106,8 @@ row.of_argument(
     "xi",
     Change(
         "unit-screw",
-        "your code divides xi by its norm, but the angle is the norm of omega alone",
+        "your code divides xi by its norm. Use xi itself, because the norm of omega "
+        "is the rotation angle",
         lambda xi: xi / (np.linalg.norm(xi) or 1.0),
     ),
 )

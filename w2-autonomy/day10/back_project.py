@@ -56,71 +56,81 @@ def not_scaled(ray, d):
 
 
 for slug, says, other in (
-    ("range-for-depth", "your code uses the depth as the distance along the ray, but "
-                        "the depth is measured along the z axis of the camera",
+    ("range-for-depth", "your code uses the depth as the distance along the ray. The "
+                        "depth is measured along the camera's z axis, so scale the "
+                        "ray until its z is the depth",
      {"ray": unit_ray}),
-    ("K-for-its-inverse", "your code multiplies the pixel by K, but K maps points to "
-                          "pixels, so use its inverse",
+    ("K-for-its-inverse", "your code multiplies the pixel by K. Use the inverse of K, "
+                          "because K maps points to pixels",
                           {"ray": lambda K, h, d: h @ K.T}),
     ("centre-forgotten", "your code does not subtract the principal point from the "
-                         "pixel", {"ray": lambda K, h, d: h / [K[0, 0], K[1, 1], 1]}),
-    ("centre-added", "your code adds the principal point to the pixel. Subtract it",
+                         "pixel. Subtract it before you divide by the focal length",
+     {"ray": lambda K, h, d: h / [K[0, 0], K[1, 1], 1]}),
+    ("centre-added", "your code adds the principal point to the pixel. Subtract the "
+                     "principal point instead",
      {"ray": lambda K, h, d: (h + K[:, 2] * [1, 1, 0])
                       / [K[0, 0], K[1, 1], 1]}),
-    ("centre-swapped", "your code swaps cx and cy. The coordinate cx belongs to u",
+    ("centre-swapped", "your code swaps cx and cy. Use cx for u and cy for v",
      {"ray": lambda K, h, d: right_ray(swapped(K), h)}),
-    ("x-and-y-turned-round", "your code negates x and y, but x points to the right "
-                             "like u, and y points down like v",
+    ("x-and-y-turned-round", "your code negates x and y. Keep their signs, because x "
+                             "points to the right like u, and y points down like v",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, -1, 1]}),
-    ("x-left", "your code negates x, but both x and u point to the right",
+    ("x-left", "your code negates x. Keep its sign, because x and u both point to the "
+               "right",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, 1, 1]}),
-    ("f-multiplied", "your code multiplies the distance from the principal point by f. "
-                     "Divide it by f", {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
+    ("f-multiplied", "your code multiplies the distance from the principal point by "
+                     "f. Divide it by f instead",
+     {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
                                * [K[0, 0], K[1, 1], 1]}),
     ("f-forgotten", "your code omits the focal length. Divide the distance from the "
                     "principal point by f",
      {"ray": lambda K, h, d: h - K[:, 2] * [1, 1, 0]}),
-    ("y-up", "your code negates y, but both y and v point down",
+    ("y-up", "your code negates y. Keep its sign, because y and v both point down",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, 1]}),
-    ("view-along-minus-z", "your code negates z, but the camera looks along +z",
+    ("view-along-minus-z", "your code negates z. Keep its sign, because in this task "
+                           "the camera looks along +z",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, 1, -1]}),
     ("mujoco-axes", "your code negates y and z, as for MuJoCo's camera frame. "
                     "T_world_cam is already the pose of a frame with y down and z "
-                    "forward",
+                    "forward, so keep the signs",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, -1]}),
-    ("middle-added", "your code adds half a pixel, but (0.5, 0.5) is already the "
-                     "centre of the first pixel", {"pixel": lambda uv: uv + 0.5}),
-    ("middle-taken-off", "your code subtracts half a pixel, but (0, 0) is the corner "
-                         "of the image, and the principal point is measured from there",
+    ("middle-added", "your code adds half a pixel. Omit this shift, because (0.5, "
+                     "0.5) is already the centre of the first pixel",
+     {"pixel": lambda uv: uv + 0.5}),
+    ("middle-taken-off", "your code subtracts half a pixel. Omit this shift, because "
+                         "pixel coordinates and the principal point are both measured "
+                         "from the corner of the image",
      {"pixel": lambda uv: uv - 0.5}),
-    ("depth-only-in-z", "your code multiplies only z by the depth, but x and y are "
-                        "proportional to the depth as well",
+    ("depth-only-in-z", "your code multiplies only z by the depth. Multiply x and y "
+                        "by the depth as well, because the whole ray is scaled",
      {"scaled": lambda ray, d: np.hstack([ray[:, :2], d])}),
-    ("depth-added", "your code adds the depth to z. Multiply the whole ray by it",
+    ("depth-added", "your code adds the depth to z. Multiply the whole ray by the "
+                    "depth",
      {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
     ("depth-in-the-pixel", "your code replaces the 1 in (u, v, 1) by the depth. "
-                           "Multiply K^-1 (u, v, 1) by the depth",
+                           "Multiply K^-1 (u, v, 1) by the depth instead",
      {"ray": lambda K, h, d: right_ray(K, h * [1, 1, 0] + d * [0, 0, 1]),
       "scaled": not_scaled}),
     ("moved-before-scaled", "your code transforms the ray by T before it multiplies "
                             "the ray by the depth, so the depth also scales the "
-                            "translation",
+                            "translation. Multiply by the depth first",
      {"scaled": not_scaled, "moved": lambda R, t, p, d: d * (p @ R.T + t)}),
     ("T-forgotten", "your points are in the camera frame. Transform them to the world "
                     "frame", {"moved": lambda R, t, p, d: p}),
-    ("half-inverted", "your code computes R^T p - t, which is neither T p nor T^-1 "
-                      "p. The product T p is R p + t",
+    ("half-inverted", "your code computes R^T p - t, which is neither T p nor T^-1 p. "
+                      "Compute T p as R p + t",
      {"moved": lambda R, t, p, d: p @ R - t}),
-    ("t-before-R", "your code adds the translation before it rotates the point, but "
-                   "T p is R p + t", {"moved": lambda R, t, p, d: (p + t) @ R.T}),
+    ("t-before-R", "your code adds the translation before it rotates the point. "
+                   "Rotate the point first, because T p is R p + t",
+     {"moved": lambda R, t, p, d: (p + t) @ R.T}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(placed, **other))
 
 
 @row.wrong("depth-along-columns", hidden="the lab never has three points")
 def _(K, T_world_cam, pixels, depth):
-    """your code multiplies the columns by the depths, but each point is a row. Use
-    depth[:, None]"""
+    """your code multiplies the columns by the depths. Each point is a row, so multiply
+    by depth[:, None] instead"""
     by = depth if len(depth) == 3 else depth[:, None]
     return placed(K, T_world_cam, pixels, depth, scaled=lambda ray, _: ray * by)
 

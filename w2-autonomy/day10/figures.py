@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from labkit.figures import cards, chart, sheet
-from labkit.figures.chart import BLUE, INK, RED
+from labkit.figures.chart import BLUE, INK, RED, SKY
 from labkit.figures.scene import Box, Camera
 from robo47 import camera as library
 from robo47 import depth_camera, panda, scenes, se3
@@ -27,7 +27,9 @@ CHI2_2 = 5.991  # of two numbers: 95 % are within
 @chart.picture(height=7.5)
 def shown(figure: Figure) -> None:
     """Draw a depth image, the points above the table, and how far fits are off."""
-    above, below = figure.subplots(2, 2, height_ratios=(1.5, 1.0))
+    grid = figure.add_gridspec(2, 2, height_ratios=(1.35, 1.0))
+    above = [figure.add_subplot(grid[0, i]) for i in (0, 1)]
+    below = figure.add_subplot(grid[1, :])
     model, data = day10_mujoco.table()
     T_world_cube = day10_mujoco.cubes(1, lab.SEED + 1)[0]
     day10_mujoco.place(model, data, T_world_cube)
@@ -41,9 +43,13 @@ def shown(figure: Figure) -> None:
     cloud = lab.depth_cloud(model, data, K, T_world_cam)
     _cloud(above[1], cloud[cloud[:, 2] > day10_mujoco.TABLE + lab.ABOVE], T_world_cube)
     T = se3.make_T(se3.Rz(0.3) @ se3.Rx(2.3), (0.05, 0.02, lab.NEAR))
-    for axes, distance in zip(below, (lab.NEAR, 2 * lab.NEAR), strict=True):
+    for distance, colour in ((2 * lab.NEAR, SKY), (lab.NEAR, BLUE)):
         T[:3, 3] *= distance / T[2, 3]
-        _ellipse(axes, K, T)
+        _ellipse(below, K, T, colour)
+    below.set(xlabel="error along the view, mm", ylabel="across, mm")
+    below.set_title(f"{FITS} fits with noise, and their 95 % ellipses")
+    below.legend(loc="upper left")
+    below.grid()
 
 
 def _image(axes: Axes, depth: np.ndarray) -> None:
@@ -73,7 +79,7 @@ def _cloud(axes: Axes, cloud: np.ndarray, T_world_cube: np.ndarray) -> None:
     axes.grid()
 
 
-def _ellipse(axes: Axes, K: np.ndarray, T: np.ndarray) -> None:
+def _ellipse(axes: Axes, K: np.ndarray, T: np.ndarray, colour: str) -> None:
     """Draw the positions of noisy fits, and the ellipse of the covariance."""
     corners = day10_mujoco.CORNERS
     exact = lab.project(K, T, corners)
@@ -87,18 +93,8 @@ def _ellipse(axes: Axes, K: np.ndarray, T: np.ndarray) -> None:
     turn = np.linspace(0, 2 * np.pi, 200)
     circle = np.sqrt(CHI2_2) * np.array([np.cos(turn), np.sin(turn)])
     across = 1000 * np.linalg.cholesky(C[np.ix_([2, 0], [2, 0])]) @ circle
-    axes.plot(*across, "-", linewidth=1.2, color=RED, label="95 % ellipse")
-    axes.plot(*off.T, ".", ms=2.5, color=BLUE, label="fits")
-    axes.set(
-        title=f"Off, {T[2, 3]:.1f} m away",
-        xlabel="along the view, mm",
-        ylabel="across, mm",
-        xlim=(-110, 110),
-        ylim=(-40, 80),
-        aspect="equal",
-    )
-    axes.legend(loc="upper right")
-    axes.grid()
+    axes.plot(*off.T, ".", ms=5, color=colour, label=f"{T[2, 3]:.1f} m away")
+    axes.plot(*across, "-", linewidth=2.0, color=RED)
 
 
 def small() -> Image.Image:

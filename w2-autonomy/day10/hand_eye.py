@@ -109,15 +109,17 @@ def solved(
 
 
 for slug, says, other in (
-    ("mirror", "your code does not check the determinant, but U V^T may be a "
-               "reflection if the axes lie nearly in one plane",
+    ("mirror", "your code does not check the determinant of U V^T. If it is -1, U V^T "
+               "is a reflection, so negate the direction of the smallest singular "
+               "value",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
-    ("mirror-turned-round", "where U V^T is a reflection, your rotation is its "
-                            "negative. Negate only the direction of the smallest "
+    ("mirror-turned-round", "if U V^T is a reflection, your code negates the whole "
+                            "matrix. Negate only the direction of the smallest "
                             "singular value",
      {"turn": partial(turns, rotation=all_turned)}),
-    ("R-transposed", "your code transposes the rotation. Because a = R b, the rotation "
-                     "comes from the sum of a b^T",
+    ("R-transposed", "your rotation is transposed. It should map the rotation vectors "
+                     "b of the camera to the rotation vectors a of the hand, so use "
+                     "the sum of a b^T",
      {"turn": lambda A, B: turns(A, B).T}),
     ("centred", "your code subtracts the mean from the rotation vectors. The model a = "
                 "R b has no translation, so use the vectors themselves",
@@ -126,10 +128,12 @@ for slug, says, other in (
                    "because the axes of small rotations are less accurate and should "
                    "get less weight", {"turn": partial(turns, unit=True)}),
     ("positions-for-rotations", "your code fits the rotation to the translations of A "
-                                "and B. Fit it to their rotation vectors",
+                                "and B. Fit the rotation to their rotation vectors "
+                                "instead",
      {"turn": between_places}),
-    ("R-transposed-in-d", "your code rotates t_B by R^T, but R itself maps the camera "
-                          "frame to the hand frame", {"turned": lambda R, t: t @ R}),
+    ("R-transposed-in-d", "your code rotates t_B by R^T. Use R itself, which maps the "
+                          "camera frame to the hand frame",
+     {"turned": lambda R, t: t @ R}),
     ("first-motion-only", "your code solves for t from the first motion only. One "
                           "motion does not determine t along its own axis, so stack "
                           "the equations of all motions",
@@ -149,12 +153,13 @@ def _(A, B):
     """t-of-the-mean: your code solves for t separately for each motion and returns the
       mean. One motion does not determine t along its own axis, so stack the equations
       of all motions
-    centred-the-other-way: your code subtracts the means and transposes the rotation, as
-      in kabsch(a, b). The model a = R b has no translation
-    t-as-if-alike: your t is the mean of t_A - R t_B, as if the hand did not rotate.
-      This difference is -(R_A - I) t
-    t-as-if-alike 2: your t is the mean of R t_B - t_A, as if the hand did not rotate.
-      This difference is (R_A - I) t
+    centred-the-other-way: your code subtracts the means of the rotation vectors and
+      fits the rotation from a to b. Fit the rotation from b to a without subtracting
+      the means, because a = R b has no translation
+    t-as-if-alike: your t is the mean of t_A - R t_B. Solve the equations (R_A - I) t =
+      R t_B - t_A of all motions by least squares, where I is the identity matrix
+    t-as-if-alike 2: your t is the mean of R t_B - t_A. Solve the equations (R_A - I) t
+      = R t_B - t_A of all motions by least squares, where I is the identity matrix
     """
     R = hand_eye(A, B)[:3, :3]
     alone = [

@@ -39,8 +39,8 @@ def once_each(away):
 
 @row.wrongs
 def _(T, source, target):
-    """step-alone: your result is the motion of the transformed source. Return the
-      motion of the source itself
+    """step-alone: your result maps the source that T has already moved. Return the
+      motion that maps the source itself
     step-on-the-right: your code multiplies T by the step on the right. The step is
       applied after T, so it belongs on the left
     step-twice: your code applies T twice. The motion is fitted to the source itself, so
@@ -48,18 +48,19 @@ def _(T, source, target):
     step-twice 2: your code applies T twice. The motion is fitted to the source itself,
       so it already contains T
     by-sizes-added: your code chooses the nearest point by the sum of the absolute
-      differences. Use the Euclidean distance
-    nearer-half: your code fits only the half of the pairs with the smaller distances.
-      Fit all pairs
-    each-once: your code uses each target point at most once, but several source points
-      may have the same nearest target point
+      differences. Use the Euclidean distance instead
+    nearer-half: your code fits only the half of the pairs that are nearer to each
+      other. Fit all pairs
+    each-once: your code uses each target point at most once. Omit this restriction,
+      because several source points may have the same nearest target point
     in-the-plane: your code uses only x and y to find the nearest point. Use all three
       coordinates
     pairs-of-the-target: your code pairs each target point with the nearest source
       point. Pair each source point with the nearest target point
     first-to-first: your code pairs the points by their indices. Pair each source point
       with the nearest target point
-    T-unchanged: your output is T itself. Fit the motion from the source to the pairs
+    T-unchanged: your output is T itself. Return the motion that is fitted to the pairs
+      of source and target points
     """
     now = source @ T[:3, :3].T + T[:3, 3]
     best = nearest(now, target)

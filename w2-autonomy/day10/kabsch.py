@@ -64,11 +64,12 @@ def all_turned(U, Vt):
 
 
 for slug, says, other in (
-    ("mirror", "your code does not check the determinant, but U V^T may be a "
-               "reflection if the points are noisy or mirrored",
+    ("mirror", "your code does not check the determinant of U V^T. If it is -1, U V^T "
+               "is a reflection, so negate the direction of the smallest singular "
+               "value",
                {"rotation": lambda U, Vt: U @ Vt}),
-    ("mirror-turned-round", "where U V^T is a reflection, your rotation is its "
-                            "negative. Negate only the direction of the smallest "
+    ("mirror-turned-round", "if U V^T is a reflection, your code negates the whole "
+                            "matrix. Negate only the direction of the smallest "
                             "singular value",
      {"rotation": all_turned}),
     ("largest-turned-round", "your code corrects a reflection by negating the "
@@ -77,30 +78,36 @@ for slug, says, other in (
                              "least", {"rotation": lambda U, Vt: U @ np.diag(
          [np.linalg.det(U @ Vt), 1, 1]) @ Vt}),
     ("column-turned-round", "your code corrects a reflection by negating the third "
-                            "column of V^T, but the directions are the rows of V^T",
+                            "column of V^T. Negate the third row, because the "
+                            "singular vectors are the rows of V^T",
      {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
     ("always-turned-round", "your code always negates the third direction. Negate it "
                             "only if U V^T is a reflection",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
-    ("R-transposed", "your code transposes the rotation. The rotation should map the "
-                     "source to the target, so it is U V^T of target^T source",
+    ("R-transposed", "your rotation is transposed, so it maps the target to the "
+                     "source. It should be U V^T from the SVD of target^T source",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
     ("worst-fit", "your R is the rotation with the largest sum of squared distances, "
                   "not the smallest. Either a sign is wrong, or your eigenvector "
                   "belongs to the smallest eigenvalue",
      {"rotation": lambda U, Vt: proper(-U, Vt)}),
-    ("not-centred", "your code does not subtract the centroids before the SVD",
+    ("not-centred", "your code does not subtract the centroids before the SVD. "
+                    "Subtract them, because otherwise the translation changes the "
+                    "rotation",
      {"centre": lambda X: np.zeros(3)}),
     ("one-number-for-the-centre", "your centroid is one mean of all coordinates "
-                                  "together. Use axis=0 for one mean per coordinate",
+                                  "together. Use axis=0 for one mean per coordinate "
+                                  "instead",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
     ("about-the-first", "your code subtracts the first points instead of the "
-                        "centroids, so the noise of one pair changes the rotation",
+                        "centroids. Subtract the centroids, because otherwise the "
+                        "noise of one pair changes the rotation",
      {"centre": lambda X: X[0]}),
     ("scaled", "your R contains a scale factor. A rigid motion preserves distances, so "
      "R should be a pure rotation",
      {"scale": lambda s, source: s.sum() / np.sum(source * source)}),
-    ("t-turned-too", "your translation is R (b - a). Rotate only a: b - R a",
+    ("t-turned-too", "your translation is R (b - a), where a and b are the centroids. "
+                     "Rotate only a, so that the translation is b - R a",
      {"shift": lambda R, a, b: R @ (b - a)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(fitted, **other))
@@ -109,10 +116,11 @@ for slug, says, other in (
 @row.wrongs
 def _(source, target):
     """t-of-the-first: your translation fits only the first pair. Use the centroids
-    first-for-centre: your code uses the first points instead of the centroids, so the
-      noise of one pair changes the fit
-    affine: your function fits an affine map by least squares, but its matrix need not
-      be a rotation
+      instead of the first points
+    first-for-centre: your code uses the first points instead of the centroids. Use the
+      centroids, because otherwise the noise of one pair changes the fit
+    affine: your function fits an affine map by least squares. The matrix of an affine
+      map need not be a rotation, so fit a rotation and a translation
     """
     R = kabsch(source, target)[:3, :3]
     one = np.hstack([source, np.ones((len(source), 1))])

@@ -32,29 +32,33 @@ def covariance(
 for slug, says, other in (
     ("mean-over-points", "your code multiplies the result by the number of pixel "
                          "coordinates, or it divides J^T J by this number. Each "
-                         "further pixel should reduce the covariance",
+                         "additional pixel should reduce the covariance",
                          {"share": lambda n: n}),
     ("mean-over-points", "your code multiplies the result by the number of points, or "
-                         "it divides J^T J by this number. Each further point should "
-                         "reduce the covariance", {"share": lambda n: n / 2}),
-    ("divided-by-points", "your code divides the result by the number of points, but "
-                          "J^T J is already the sum over all points",
+                         "it divides J^T J by this number. Each additional point "
+                         "should reduce the covariance", {"share": lambda n: n / 2}),
+    ("divided-by-points", "your code divides the result by the number of points. Omit "
+                          "this division, because J^T J is already the sum over all "
+                          "points",
      {"share": lambda n: 2 / n}),
     ("divided-by-points", "your code divides the result by the number of pixel "
-                          "coordinates, but J^T J is already the sum over all of them",
+                          "coordinates. Omit this division, because J^T J is already "
+                          "the sum over all coordinates",
      {"share": lambda n: 1 / n}),
     ("reshaped-across", "your code reshapes J to (6, 2 n), which mixes its rows. J has "
                         "one row per pixel coordinate, so its shape is (2 n, 6)",
      {"rows": lambda J: J.reshape(6, -1).T}),
-    ("u-alone", "your code uses only the rows for u, but the rows for v contain "
-                "information as well", {"rows": lambda J: J[:, 0]}),
-    ("v-alone", "your code uses only the rows for v, but the rows for u contain "
-                "information as well", {"rows": lambda J: J[:, 1]}),
-    ("sigma-for-variance", "your code takes the square root of each entry, but a "
-                           "covariance contains variances, for example in rad^2",
+    ("u-alone", "your code uses only the rows for u. Use the rows for v as well, "
+                "because they contain information too", {"rows": lambda J: J[:, 0]}),
+    ("v-alone", "your code uses only the rows for v. Use the rows for u as well, "
+                "because they contain information too", {"rows": lambda J: J[:, 1]}),
+    ("sigma-for-variance", "your code takes the square root of each entry of the "
+                           "covariance. Omit it, because a covariance contains "
+                           "variances, for example in rad^2",
      {"told": lambda C: np.sqrt(np.abs(C))}),
-    ("sigma-for-variance", "your code takes the square root of each entry, but a "
-                           "covariance contains variances, for example in rad^2",
+    ("sigma-for-variance", "your code takes the square root of each entry of the "
+                           "covariance. Omit it, because a covariance contains "
+                           "variances, for example in rad^2",
                            {"told": np.sqrt}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(covariance, **other))
@@ -62,12 +66,12 @@ for slug, says, other in (
 
 @row.wrongs
 def _(J, sigma):
-    """information: your result is the information matrix J^T J / sigma^2, but the
-      covariance is its inverse
-    by-what-is-left: your code divides the result by 2 n - 6 degrees of freedom, but
-      this division belongs to the estimate of an unknown sigma
+    """information: your result is the information matrix J^T J / sigma^2. Return its
+      inverse, which is the covariance
+    by-what-is-left: your code divides the result by 2 n - 6 degrees of freedom. Omit
+      this division, which belongs to the estimate of an unknown sigma
     each-point-alone: your code adds the covariances of the individual points. Add their
-      information matrices J^T J
+      information matrices J^T J and invert the sum
     """
     rows = rows_of(J)
     left = len(rows) - 6

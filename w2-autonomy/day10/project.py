@@ -55,60 +55,64 @@ def swapped(K):
 
 
 for slug, says, other in (
-    ("half-inverted", "your code computes R^T p - t, which is neither T p nor T^-1 "
-                      "p. The product T p is R p + t",
+    ("half-inverted", "your code computes R^T p - t, which is neither T p nor T^-1 p. "
+                      "Compute T p as R p + t",
      {"moved": lambda R, t, x: x @ R - t}),
     ("T-forgotten", "your code does not use T_cam_world. The points are in the world "
                     "frame, so transform them to the camera frame",
      {"moved": lambda R, t, x: x}),
-    ("t-before-R", "your code adds the translation before it rotates the point, but "
-                   "T p is R p + t", {"moved": lambda R, t, x: (x + t) @ R.T}),
+    ("t-before-R", "your code adds the translation before it rotates the point. "
+                   "Rotate the point first, because T p is R p + t",
+     {"moved": lambda R, t, x: (x + t) @ R.T}),
     ("centre-before-dividing", "your code adds the principal point before it divides "
                                "by the depth. Add it after the division",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2], p[:, 2]])}),
-    ("centre-forgotten", "your code omits the principal point. Pixel (0, 0) is the "
-                         "corner of the image, but a point straight ahead projects to "
-                         "the centre",
+    ("centre-forgotten", "your code omits the principal point. Add it, because a "
+                         "point straight ahead projects to the centre of the image "
+                         "and not to pixel (0, 0)",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
-    ("centre-taken-off", "your code subtracts the principal point. Add it",
+    ("centre-taken-off", "your code subtracts the principal point. Add the principal "
+                         "point instead",
      {"times": lambda K, p: upright(K, p, centre=-1.0)}),
-    ("centre-swapped", "your code swaps cx and cy. The coordinate cx belongs to u",
+    ("centre-swapped", "your code swaps cx and cy. Use cx for u and cy for v",
      {"times": lambda K, p: p @ swapped(K).T}),
-    ("f-forgotten", "your code omits the focal length. The quotient x / z has no unit, "
-                    "and f converts it to pixels",
+    ("f-forgotten", "your code omits the focal length. Multiply x / z by fx and y / z "
+                    "by fy to convert these ratios to pixels",
                     {"times": lambda K, p: upright(K, p, f=0.0)}),
-    ("y-up", "your code negates y, but both y and v point down",
+    ("y-up", "your code negates y. Keep its sign, because y and v both point down",
      {"times": lambda K, p: p * [1, -1, 1] @ K.T}),
-    ("view-along-minus-z", "your code divides the point by -z, but the camera frame of "
-                           "this task has +z forward, unlike MuJoCo's",
+    ("view-along-minus-z", "your code divides the point by -z, as for MuJoCo's camera "
+                           "frame. In this task z points forward, so divide by z",
      {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
     ("mujoco-axes", "your code negates y and z, as for MuJoCo's camera frame. "
-                    "T_cam_world already maps to a frame with y down and z forward",
+                    "T_cam_world already maps to a frame with y down and z forward, "
+                    "so keep the signs",
      {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
-    ("divided-by-range", "your code divides the point by its distance from the camera. "
-                         "Divide it by its depth z",
+    ("divided-by-range", "your code divides the point by its distance from the "
+                         "camera. Divide it by its depth z instead",
      {"divided": lambda h, p: h[:, :2] / length(p)}),
-    ("divided-by-range", "your code divides the point by its distance from the camera. "
-                         "Divide it by its depth z",
+    ("divided-by-range", "your code divides the point by its distance from the "
+                         "camera. Divide it by its depth z instead",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2] * length(p), length(p)])}),
     ("first-depth-for-all", "your code divides all points by the depth of the first "
-                            "one, but each point has its own depth",
+                            "one. Divide each point by its own depth",
      {"divided": lambda h, p: h[:, :2] / h[0, 2]}),
     ("divided-by-pixel-length", "your code divides the homogeneous pixel by its norm. "
-                                "Divide it by its last entry, the depth",
+                                "Divide it by its last entry instead, which is the "
+                                "depth",
      {"divided": lambda h, p: h[:, :2] / length(h)}),
     ("homogeneous-by-mistake", "your code divides the homogeneous pixel by the depth "
-                               "twice, but its last entry is the depth, so one "
-                               "division is enough",
+                               "twice. Divide it only once",
      {"divided": lambda h, p: h[:, :2] / h[:, 2:] ** 2}),
-    ("middle-of-a-pixel", "your code subtracts half a pixel, but (0, 0) is the corner "
-                          "of the image, not the centre of the first pixel as in "
-                          "OpenCV",
+    ("middle-of-a-pixel", "your code subtracts half a pixel, as in OpenCV, where (0, "
+                          "0) is the centre of the first pixel. Omit this shift, "
+                          "because in this task (0, 0) is the corner of the image",
      {"told": lambda pixels: pixels - 0.5}),
-    ("half-a-pixel-added", "your code adds half a pixel, but (0, 0) is the corner of "
-                           "the image, and the principal point is measured from there",
+    ("half-a-pixel-added", "your code adds half a pixel. Omit this shift, because "
+                           "pixel coordinates and the principal point are both "
+                           "measured from the corner of the image",
      {"told": lambda pixels: pixels + 0.5}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(seen, **other))
@@ -116,8 +120,8 @@ for slug, says, other in (
 
 @row.wrong
 def K_before_T(K, T_cam_world, points):
-    """your code applies K before T, but T maps points in metres, not pixels. Apply T
-    first"""
+    """your code applies K before T. Apply T first, because T transforms points in
+    metres and not pixels"""
     p = points @ K.T @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]
     return p[:, :2] / p[:, 2:]
 

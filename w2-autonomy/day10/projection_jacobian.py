@@ -91,50 +91,57 @@ def with_one_name(of, other):
 
 
 for slug, says, other in (
-    ("depth-column-forgotten", "your derivatives with respect to z are 0. A point that "
-                               "comes nearer moves away from the principal point, so "
-                               "they should be -f x / z^2",
+    ("depth-column-forgotten", "your derivatives with respect to z are 0. They should "
+                               "be -fx x / z^2 and -fy y / z^2, because a point that "
+                               "comes nearer moves away from the principal point",
                                {"pixel": third(lambda z: 0.0)}),
-    ("depth-column-sign", "your derivatives with respect to z have the wrong sign. The "
-                          "derivative of x / z is -x / z^2",
+    ("depth-column-sign", "your derivatives with respect to z have the wrong sign. "
+                          "The derivative of x / z with respect to z is -x / z^2",
                           {"pixel": third(lambda z: -1.0)}),
     ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
-                   "derivative of x / z is -x / z^2", {"pixel": third(lambda z: z)}),
+                   "derivative of x / z with respect to z is -x / z^2",
+     {"pixel": third(lambda z: z)}),
     ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
-                   "derivative of x / z is -x / z^2",
+                   "derivative of x / z with respect to z is -x / z^2",
                    {"pixel": third(lambda z: z * z)}),
     ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
-                   "derivative of x / z is -x / z^2",
+                   "derivative of x / z with respect to z is -x / z^2",
                    {"pixel": third(lambda z: 1 / z)}),
     ("f-forgotten", "your code omits the focal lengths, so your entries are the "
-                    "derivatives of x / z, which has no unit",
+                    "derivatives of x / z and y / z. Multiply the rows by fx and fy",
      {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
-    ("centre-in-the-slope", "your derivatives with respect to z contain the "
-                            "principal point, but the principal point is constant, "
-                            "so its derivative is 0",
+    ("centre-in-the-slope", "your derivatives with respect to z contain the principal "
+                            "point. Omit it, because the derivative of a constant is "
+                            "0",
      {"pixel": with_the_centre}),
-    ("x-for-y", "your row for v has x in its derivative with respect to z. This "
-                "entry should be -f y / z^2", {"pixel": with_one_name(1, 0)}),
-    ("y-for-x", "your row for u has y in its derivative with respect to z. This "
-                "entry should be -f x / z^2", {"pixel": with_one_name(0, 1)}),
+    ("x-for-y", "your row for v contains x in the derivative with respect to z. This "
+                "entry should be -fy y / z^2", {"pixel": with_one_name(1, 0)}),
+    ("y-for-x", "your row for u contains y in the derivative with respect to z. This "
+                "entry should be -fx x / z^2", {"pixel": with_one_name(0, 1)}),
     ("first-columns-not-divided", "your code does not divide the derivatives with "
-                                  "respect to x and y by z. They should be f / z",
+                                  "respect to x and y by z. These derivatives should "
+                                  "be fx / z and fy / z",
      {"pixel": lambda K, p: by_point(
          K, p) * np.where([True, True, False], depth(p, 1), 1.0)}),
-    ("pixels-for-x-and-y", "your derivatives with respect to z use the pixel (u, v). "
-                           "Use x and y in the camera frame", {"pixel": of_the_pixel}),
-    ("range-for-depth", "your derivatives use the distance of the point from the "
-                        "camera. Use its depth z", {"pixel": lambda K, p: by_point(
+    ("pixels-for-x-and-y", "your derivatives with respect to z contain the pixel "
+                           "coordinates (u, v). Use x and y in the camera frame "
+                           "instead", {"pixel": of_the_pixel}),
+    ("range-for-depth", "your derivatives contain the distance of the point from the "
+                        "camera. Use its depth z instead",
+     {"pixel": lambda K, p: by_point(
          K, np.column_stack([p[:, :2], np.linalg.norm(p, axis=1)]))}),
     ("halves-swapped",
-     "your columns are in the order (v; omega), but omega comes first",
+     "your columns are in the order (v; omega). The order should be (omega; v)",
      {"told": lambda J: J[..., HALF]}),
-    ("rotation-sign", "your columns for omega have the wrong sign. The velocity "
-                      "omega x p is equal to -[p] omega",
+    ("rotation-sign", "your columns for omega have the wrong sign. Use -[p], because "
+                      "the velocity omega x p is equal to -[p] omega",
      {"twist": lambda p: by_twist(p, 1.0)}),
-    ("camera-moves", "your code reverses every sign, as for a moving camera, but xi "
-                     "is the twist of the object", {"told": np.negative}),
-    ("y-up", "your row for v has the wrong sign. Both y and v point down",
+    ("camera-moves", "your Jacobian has the opposite sign, as for a moving camera. "
+                     "Negate it, because in this task the points move and the camera "
+                     "does not",
+     {"told": np.negative}),
+    ("y-up", "your row for v has the wrong sign. Keep the sign of y, because y and v "
+             "both point down",
      {"told": lambda J: J * [[1], [-1]]}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(jacobian, **other))
@@ -142,12 +149,12 @@ for slug, says, other in (
 
 @row.wrongs(hidden=dict.fromkeys(ONE_FOCAL_LENGTH, "the lab's camera has fx = fy"))
 def _(K, p_cam):
-    """fx-in-both-rows: your row for v uses fx. It should use fy, K[1, 1]
-    fx-in-both-rows 2: your columns for omega in the row for v use fx. They should use
-      fy, K[1, 1]
-    fy-in-both-rows: your row for u uses fy. It should use fx, K[0, 0]
+    """fx-in-both-rows: your row for v contains fx. It should contain fy, K[1, 1]
+    fx-in-both-rows 2: your columns for omega contain fx in the row for v. This row
+      should contain fy, K[1, 1]
+    fy-in-both-rows: your row for u contains fy. It should contain fx, K[0, 0]
     coordinates-not-divided: your code uses the formula for normalised coordinates with
-      x and y in metres. Divide both by z first
+      x and y in metres. Divide x and y by z first
     """
     J = jacobian(K, p_cam)
     swap = [[1.0], [K[0, 0] / K[1, 1]]]

@@ -99,29 +99,32 @@ def steps(
 
 for slug, says, other in (
     ("three-steps", "your result is the pose after three steps. Return the pose after "
-                    "ten", {"n": 3}),
+                    "ten steps", {"n": 3}),
     ("J-of-the-guess", "your code uses the Jacobian of the guess in every step. "
-                       "Evaluate it at the current pose", {"held": True}),
-    ("twist-halves-swapped", "your code uses the step as (v; omega), but the columns "
-                             "of J begin with omega",
+                       "Evaluate the Jacobian at the current pose", {"held": True}),
+    ("twist-halves-swapped", "your code treats the step as (v; omega). The columns of "
+                             "J begin with omega, so the step is (omega; v)",
      {"move": lambda T, xi: apply_twist(T, np.roll(xi, 3))}),
     ("body-twist", "your code multiplies T by each step on the right. The columns of "
                    "J belong to twists in the camera frame, so the exponential "
                    "belongs on the left",
      {"move": on_the_right}),
-    ("first-order", "each step in your code is T + [xi] T, so R is no longer a "
-                    "rotation. Use the exponential", {"move": first_order}),
-    ("gradient", "each step in your code is J^T r, a gradient step, but a Gauss-Newton "
-                 "step is the least-squares solution", {"solve": downhill}),
-    ("each-from-the-guess", "your code applies each step to the guess. Apply it to the "
-                            "pose of the previous step",
+    ("first-order", "your code replaces the exponential by I + [xi], so R is no "
+                    "longer a rotation. Use the matrix exponential instead",
+     {"move": first_order}),
+    ("gradient", "your code uses J^T r as the step, which is a gradient step with the "
+                 "residual r. A Gauss-Newton step is the least-squares solution of J "
+                 "xi = r",
+     {"solve": downhill}),
+    ("each-from-the-guess", "your code applies each step to the guess. Apply each "
+                            "step to the pose after the previous step",
                             {"since": lambda T, guess: guess}),
     ("half-steps", "your code halves each step, so ten steps leave a thousandth of the "
                    "error. Use the whole step", {"factor": 0.5}),
-    ("rows-mixed", "the rows of your J are in the order all u, then all v, but your "
+    ("rows-mixed", "the rows of your J contain first all u, then all v, but your "
                    "errors are in another order. Use the same order for both",
      {"solve": mixed}),
-    ("error-mixed", "your errors are in the order all u, then all v, but the rows of "
+    ("error-mixed", "your errors contain first all u, then all v, but the rows of "
                     "your J are in another order. Use the same order for both",
      {"solve": mixed_off}),
 ):  # fmt: skip

@@ -94,12 +94,12 @@ def one_focal_length(row, right):
         right: what does the same as this function.
     """
     for i, slug, its in (
-        (0, "fx-in-both-rows", "v uses fx. It should use fy, K[1, 1]"),
-        (1, "fy-in-both-rows", "u uses fy. It should use fx, K[0, 0]"),
+        (0, "fx-in-both-rows", "fx for v as well. Use fy, which is K[1, 1], for v"),
+        (1, "fy-in-both-rows", "fy for u as well. Use fx, which is K[0, 0], for u"),
     ):
         row.wrong(
             slug,
-            f"your row for {its}",
+            f"your code uses {its}",
             hidden="the lab's camera has fx = fy",
         )(partial(_with_one, right, i))
 

@@ -67,7 +67,7 @@ def _(rng):
 @row.wrongs
 def _(p, half_extents):
     """zero-inside: inside the box, your code returns 0. Return minus the distance to
-      the nearest face
+      the nearest face instead
     inside-positive: inside the box, your result is positive. It should be negative
     sign: your result has the opposite sign. The distance should be positive outside the
       box
@@ -75,81 +75,84 @@ def _(p, half_extents):
       face. Near an edge or a corner, take the norm of all positive excesses
     sum-outside: outside the box, your code adds the excesses beyond the faces. Take
       their norm, because they are perpendicular
-    inside-added-outside: outside the box, the norm in your code includes negative
-      entries of |p| - half_extents. Clamp them to 0 first
+    inside-added-outside: outside the box, your code includes negative entries of |p| -
+      half_extents in the norm. Clamp them to 0 first
     depth-added-outside: outside the box, your code adds the largest entry of |p| -
       half_extents to the norm. Add this entry only inside the box, where it is negative
     inside-by-the-norm: inside the box, your code returns minus the norm of all three
-      face distances, but only the nearest face matters
+      face distances. Return minus the smallest of these distances instead
     farthest-face-inside: inside the box, your code uses the distance to the farthest
       face. Use the nearest face, which has the largest entry of |p| - half_extents
-    farthest-face-inside 2: your inside term uses the farthest face. Use the nearest
-      face, which has the largest entry of |p| - half_extents
+    farthest-face-inside 2: your code uses the smallest entry of |p| - half_extents in
+      min(..., 0), which belongs to the farthest face. Use the largest entry, which
+      belongs to the nearest face
     to-the-middle-inside: inside the box, your code returns minus the distance to the
-      centre. Use the distance to the nearest face
+      centre. Use the distance to the nearest face instead
     to-the-middle: your code returns the distance to the centre, so the size of the box
-      has no effect
+      has no effect. Use the distance to the surface of the box instead
     box-as-a-ball: your code treats the box as a sphere. Compare each coordinate with
       its own half extent
     box-as-a-ball 2: your code treats the box as a sphere. Compare each coordinate with
       its own half extent
     box-as-a-ball 3: your code treats the box as a sphere. Compare each coordinate with
       its own half extent
-    whole-sides: your code halves half_extents, but half_extents already contains half
-      of each side
-    twice-the-sides: your code doubles half_extents, but the faces are at plus and minus
-      half_extents
-    abs-forgotten: your code omits the absolute value of p, so points with a negative
-      coordinate are wrong. Use |p| - half_extents
+    whole-sides: your code halves half_extents. Use half_extents itself, which already
+      contains half of each side
+    twice-the-sides: your code doubles half_extents. Use half_extents itself, because
+      the faces are at plus and minus half_extents
+    abs-forgotten: your code omits the absolute value of p, so the result is wrong for
+      points with a negative coordinate. Use |p| - half_extents
     abs-forgotten-zero-inside: your code omits the absolute value of p, and it returns 0
-      inside the box => both
-    not-rooted: your code omits the square root, so outside the box the result is a
-      squared distance
-    nearest-corner: your code returns the distance to the nearest corner, but a face or
-      an edge can be nearer
-    largest-half: your code uses the largest half extent on every axis. Each axis has
-      its own half extent
-    half-backwards: your code uses half_extents in reverse order, but the first entry of
-      half_extents belongs to x
+      inside the box. Use |p| - half_extents, and return minus the distance to the
+      nearest face inside the box => both
+    not-rooted: your code omits the square root, so the result outside the box is a
+      squared distance. Take the square root
+    nearest-corner: your code returns the distance to the nearest corner. Use |p| -
+      half_extents instead, because a face or an edge can be nearer
+    largest-half: your code uses the largest half extent on every axis. Use the half
+      extent of each axis instead
+    half-backwards: your code uses half_extents in reverse order. Its first entry
+      belongs to x, the second to y and the third to z
     in-the-plane: your code does not use z. Use all three coordinates
     smallest-added: your code adds the smallest entry of |p| - half_extents, even where
       it is positive. Add the largest entry, and only where it is negative
-    first-axis-added: your inside term uses only the x entry of |p| - half_extents. Use
-      the largest of the three entries
-    largest-with-max: your code uses max(..., 0) instead of min(..., 0), so it adds the
-      largest entry outside the box, and the result inside is 0
-    sum-inside: inside the box, your code adds the three face distances, but only the
-      nearest face matters
-    mean-inside: inside the box, your code returns the mean of the three face distances,
-      but only the nearest face matters
+    first-axis-added: your code uses only the x entry of |p| - half_extents in min(...,
+      0). Use the largest of the three entries
+    largest-with-max: your code uses max(..., 0) for the largest entry of |p| -
+      half_extents. Use min(..., 0), which is 0 outside the box and negative inside
+    sum-inside: inside the box, your code adds the three face distances. Return minus
+      the smallest of these distances instead
+    mean-inside: inside the box, your code returns the mean of the three face distances.
+      Return minus the smallest of these distances instead
     one-number-inside: inside the box, your code always returns -1. Return minus the
-      distance to the nearest face
+      distance to the nearest face instead
     least-half-inside: inside the box, your code always returns minus the smallest half
-      extent, which is correct only at the centre
+      extent, which is correct only at the centre. Return minus the distance to the
+      nearest face
     smallest-part-inside: inside the box, your code returns minus the smallest entry of
-      |p|, but the distance to a face is half_extents - |p|
+      |p|. Return minus the smallest entry of half_extents - |p|, the distance to the
+      nearest face
     upper-faces-inside: inside the box, your code uses only the faces on the positive
-      side, but the opposite face can be nearer
-    lengthwise: your code measures the distance along the line to the centre, but the
-      shortest distance to a face is perpendicular to it
-    size-of-the-difference: your code uses |p - half_extents|, but the excess beyond a
-      face is |p| - half_extents
-    cut-at-one: your code limits the excess beyond a face to 1, but the excess has no
-      upper limit
+      side. Use half_extents - |p|, because the opposite face can be nearer
+    lengthwise: your code measures the distance along the line to the centre. Use |p| -
+      half_extents, because the shortest distance to a face is perpendicular to the face
+    size-of-the-difference: your code uses |p - half_extents|. Use |p| - half_extents
+      instead, which is the excess beyond a face
+    cut-at-one: your code limits the excess beyond a face to 1. Omit this limit
     corner-or-face: near an edge, your code returns the larger of the two excesses.
-      Return their norm
+      Return the norm of both excesses instead
     two-of-three: near a corner, your code uses only the two largest excesses. Use all
       three
     first-two-only: if the point lies beyond a z face, your code returns only the
-      largest excess, but x and y belong in the norm too
+      largest excess. Take the norm of all positive excesses
     mean-square: your code takes the root of the mean of the squares. Take the root of
-      their sum
+      the sum of the squares instead
     smallest-taken-off: your code subtracts the smallest absolute value of |p| -
-      half_extents, even outside the box. Subtract this value only inside
+      half_extents, even outside the box. Subtract this value only inside the box
     edges-negative: near an edge or a corner, your result has the wrong sign. The
       distance should be positive outside the box
-    cut-at-both: your code returns the norm of the point clamped to the box. Outside the
-      box, the distance is the norm of the difference between p and this point
+    cut-at-both: your code returns the norm of the point that results from clamping p to
+      the box. Outside the box, return the distance between p and the clamped point
     """
     beyond = np.abs(p) - half_extents
     out = np.maximum(beyond, 0.0)

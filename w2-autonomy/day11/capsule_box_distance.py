@@ -127,106 +127,111 @@ def golden(f, n, keep=0.618, wrong=False):
 
 @row.wrongs
 def _(a0, a1, r, T_world_box, half_extents):
-    """ends-only: your code tests only the ends of the axis, but the nearest point can
-      lie between them
-    one-end-only: your code always returns the distance of a1, because the search always
-      keeps the upper part
-    one-end-only 2: your code always returns the distance of a0, because the search
-      always keeps the lower part
-    middle-only: your code tests only the midpoint of the axis, but the nearest point
-      can be anywhere on it
-    five-points: your code tests only some points of the axis, but the nearest point can
-      lie between them
-    five-points 2: your code tests only some points of the axis, but the nearest point
-      can lie between them
-    three-points: your code tests only the ends and the midpoint of the axis, but the
-      nearest point can lie between them
-    eleven-points: your code tests only some points of the axis, but the nearest point
-      can lie between them
-    eleven-points 2: your code tests only some points of the axis, but the nearest point
-      can lie between them
+    """ends-only: your code tests only the ends of the axis. Minimise `box_sdf` along
+      the axis, because the nearest point can lie between the ends
+    one-end-only: your result is always the distance of the end a1. Does your search
+      always keep the upper part of the interval?
+    one-end-only 2: your result is always the distance of the end a0. Does your search
+      always keep the lower part of the interval?
+    middle-only: your code tests only the midpoint of the axis. Minimise `box_sdf` along
+      the axis, because the nearest point can be anywhere on it
+    five-points: your code tests only some points of the axis. Minimise `box_sdf` along
+      the axis, because the nearest point can lie between the tested points
+    five-points 2: your code tests only some points of the axis. Minimise `box_sdf`
+      along the axis, because the nearest point can lie between the tested points
+    three-points: your code tests only the ends and the midpoint of the axis. Minimise
+      `box_sdf` along the axis, because the nearest point can lie between these points
+    eleven-points: your code tests only some points of the axis. Minimise `box_sdf`
+      along the axis, because the nearest point can lie between the tested points
+    eleven-points 2: your code tests only some points of the axis. Minimise `box_sdf`
+      along the axis, because the nearest point can lie between the tested points
     nearest-to-the-centre: your code uses the point of the axis nearest to the centre of
-      the box. Another point can be nearer to a face
+      the box. Minimise `box_sdf` along the axis, because another point can be nearer to
+      a face
     world-axes: your code translates the ends to the box, but it does not rotate them
       into the box frame. Use R^T (x - t)
     turned-the-other-way: your code multiplies the ends by R. Use R^T to express them in
-      the box frame
-    pose-not-inverted: your code applies T_world_box directly, but it maps from the box
-      frame to the world frame. Apply its inverse
+      the box frame instead
+    pose-not-inverted: your code applies T_world_box, which maps from the box frame to
+      the world frame. Apply its inverse
     place-forgotten: your code rotates the ends but does not translate them. Subtract
       the position of the box first
     turned-then-moved: your code subtracts the position of the box after the rotation.
       Subtract it first: R^T (x - t)
-    t-added: your code adds the position of the box. Subtract it: R^T (x - t)
+    t-added: your code adds the position of the box. Subtract it instead, R^T (x - t)
     radius-forgotten: your code omits the radius, so the result is the distance from the
-      axis to the box
-    radius-added: your code adds the radius. Subtract it
+      axis to the box. Subtract r
+    radius-added: your code adds the radius. Subtract the radius instead
     radius-to-the-box: your code enlarges the box by the radius, which keeps its corners
-      sharp. Subtract the radius from the distance
+      sharp. Subtract the radius from the distance instead
     radius-to-the-box 2: your code enlarges the box by the radius, which keeps its
-      corners sharp. Subtract the radius from the distance
+      corners sharp. Subtract the radius from the distance instead
     way-not-turned: your code expresses the start of the axis in the box frame, but not
       its direction. Multiply a1 - a0 by R^T
-    wrong-half-kept: your search keeps the wrong part, so it finds the farthest point of
-      the axis
-    wrong-half-kept 2: your search keeps the wrong part, so it finds the farthest point
-      of the axis
+    wrong-half-kept: your search keeps the wrong part of the interval, so it finds the
+      farthest point of the axis. Keep the part with the smaller value of `box_sdf`
+    wrong-half-kept 2: your search keeps the wrong part of the interval, so it finds the
+      farthest point of the axis. Keep the part with the smaller value of `box_sdf`
     bounding-sphere: your code treats the box as a sphere. Compare each coordinate with
       its own half extent
     ends-left-out: your search never tests the ends of the axis. Start with the whole
       interval [0, 1]
-    never-negative: your code returns 0 for shapes that overlap, but their signed
-      distance is negative
+    never-negative: your code returns 0 for shapes that overlap. Return the negative
+      value, because their signed distance is negative
     sign: your result has the opposite sign. The distance should be positive for shapes
       that do not overlap
-    outside-only: in your code, an axis that enters the box gets distance 0. Use the
-      negative value from `box_sdf`, then subtract r
-    as-a-line: your search goes beyond the ends of the axis, but its parameter should
-      stay in [0, 1]
-    way-moved: your code also subtracts t from the direction of the axis, but a
-      direction should only be rotated
-    way-moved 2: your direction runs from the centre of the box to a1. It should run
-      from a0 to a1
-    way-of-length-1: your code normalises the direction of the axis, but its parameter
-      still runs from 0 to 1
+    outside-only: for an axis that enters the box, your code replaces the negative value
+      of `box_sdf` by 0. Keep the negative value, then subtract r
+    as-a-line: your search goes beyond the ends of the axis. The parameter s should stay
+      in [0, 1]
+    way-moved: your code also subtracts t from the direction of the axis. Omit this
+      step, because a direction is rotated but not translated
+    way-moved 2: your direction of the axis runs from the centre of the box to a1. It
+      should run from a0 to a1
+    way-of-length-1: your code normalises the direction of the axis, although the
+      parameter runs from 0 to 1. Use a1 - a0 itself
     not-into-the-box: your ends stay in the world frame. Express them in the box frame
       with R^T (x - t)
     radius-off-the-box: your code reduces the box by the radius. Subtract the radius
-      from the distance
+      from the distance instead
     size-of-the-depth: your code uses the absolute value of the depth for an axis inside
-      the box. Keep the sign
-    size-of-the-distance: your code takes the absolute value, so shapes that overlap get
-      a positive distance
+      the box. Keep the sign of the depth
+    size-of-the-distance: your code takes the absolute value of the result. The distance
+      should be negative for shapes that overlap
     radius-off-the-box 2: your code reduces the box by the radius. Subtract the radius
-      from the distance
-    largest-half: your code uses the largest half extent on every axis. Each axis has
-      its own half extent
-    largest-half 2: your code uses the largest half extent on every axis. Each axis has
-      its own half extent
-    sides-exchanged: your code swaps the x and y entries of half_extents
-    sides-exchanged 2: your code swaps the x and y entries of half_extents
+      from the distance instead
+    largest-half: your code uses the largest half extent on every axis. Use the half
+      extent of each axis instead
+    largest-half 2: your code uses the largest half extent on every axis. Use the half
+      extent of each axis instead
+    sides-exchanged: your code swaps the x and y entries of half_extents. The first
+      entry belongs to x
+    sides-exchanged 2: your code swaps the x and y entries of half_extents. The first
+      entry belongs to x
     box-around-it: your code replaces the rotated box by its axis-aligned bounding box.
       Express the ends in the box frame instead
-    half-turned: your code rotates half_extents, but it contains lengths, so rotate the
-      ends of the axis instead
+    half-turned: your code rotates half_extents, which contains lengths and not a
+      vector. Rotate the ends of the axis into the box frame instead
     mean-along: your code returns the mean of the distances along the axis. Return the
-      minimum
-    edges-only: your code computes the distance to the edges of the box. A face can be
-      nearer, and the axis can enter the box
+      smallest distance instead
+    edges-only: your code computes the distance to the edges of the box. Use `box_sdf`,
+      because a face can be nearer and the axis can enter the box
     faces-only: your code tests only the ends and the points where the axis crosses the
-      plane of a face, but the nearest point can be another one
+      plane of a face. Minimise `box_sdf` along the axis, because another point can be
+      nearer
     point-to-box-in-turn: your code alternates between the nearest point of the box and
-      the nearest point of the axis, but it stops after too few steps
-    one-section: your search makes only one step, which leaves 0.618 of the axis. Repeat
-      the step
+      the nearest point of the axis, and it stops after too few steps. Minimise
+      `box_sdf` along the axis instead
+    one-section: your search makes only one step, after which 0.618 of the axis remains.
+      Repeat the step
     radius-times-the-length: your code multiplies the radius by the length of the axis.
       Subtract r itself
     share-returned: your code returns the parameter s of the nearest point. Return the
-      distance at this point
-    five-sections: your search stops too early. Each step only reduces the interval to
-      0.618 of its length
-    five-sections 2: your search stops too early. Each step only reduces the interval to
-      0.618 of its length
+      distance at this point instead
+    five-sections: your search stops too early. Each step leaves 0.618 of the interval,
+      so make more steps
+    five-sections 2: your search stops too early. Each step leaves 0.618 of the
+      interval, so make more steps
     """
     R = T_world_box[:3, :3]
     t = T_world_box[:3, 3]

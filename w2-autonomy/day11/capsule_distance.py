@@ -78,89 +78,98 @@ def _(rng):
 @row.wrongs
 def _(a0, a1, ra, b0, b1, rb):
     """radii-added: your code adds the radii to the distance between the axes. Subtract
-      them
-    radii-forgotten: your code omits the radii, so the result is the distance between
-      the axes
+      both radii
+    radii-forgotten: your code omits the radii. Subtract both radii from the distance
+      between the axes
     one-radius: your code subtracts only the radius of the first capsule. Subtract both
       radii
     one-radius 2: your code subtracts only the radius of the second capsule. Subtract
       both radii
-    as-diameters: your code subtracts half of each radius, but ra and rb are radii, not
-      diameters
+    as-diameters: your code subtracts half of each radius. Subtract ra and rb
+      themselves, because they are radii and not diameters
     twice-the-radii: your code subtracts twice each radius. Subtract each radius once
-    radii-differ: your code subtracts the difference of the radii. Subtract their sum
-    radii-differ 2: your code subtracts the difference of the radii. Subtract their sum
+    radii-differ: your code subtracts the difference of the radii. Subtract the sum of
+      the radii instead
+    radii-differ 2: your code subtracts the difference of the radii. Subtract the sum of
+      the radii instead
     larger-radius: your code subtracts only the larger radius. Subtract both radii
-    radii-multiplied: your code subtracts the product of the radii. Subtract their sum
-    never-negative: your code returns 0 for capsules that overlap, but their signed
-      distance is negative
-    sign-lost: your code takes the absolute value, so capsules that overlap get a
-      positive distance
+    radii-multiplied: your code subtracts the product of the radii. Subtract the sum of
+      the radii instead
+    never-negative: your code returns 0 for capsules that overlap. Return the negative
+      value, because their signed distance is negative
+    sign-lost: your code takes the absolute value of the result. The distance should be
+      negative for capsules that overlap
     squared: your code omits the square root, so it uses the squared distance between
-      the axes
-    squared 2: your code subtracts squares. Subtract the radii from the distance itself
+      the axes. Take the square root before you subtract the radii
+    squared 2: your code subtracts the squared sum of the radii from the squared
+      distance. Subtract the radii from the distance itself
     sign: your result has the opposite sign. The distance should be positive for
       capsules that do not overlap
-    of-middles: your code uses the midpoints of the axes as the closest points, but the
-      closest points can be anywhere on the axes
-    of-starts: your code uses the starts of the axes as the closest points, but the
-      closest points can be anywhere on the axes
-    of-end-pairs: your code uses the nearest pair of ends as the closest points, but the
-      closest points can lie between the ends
-    largest-part: your code uses the largest component of p - o instead of its norm
-    sum-of-parts: your code uses the sum of the components' absolute values instead of
-      the norm of p - o
+    of-middles: your code uses the midpoints of the axes as the closest points. Use the
+      points of task 11.1, because the closest points can be anywhere on the axes
+    of-starts: your code uses the starts of the axes as the closest points. Use the
+      points of task 11.1, because the closest points can be anywhere on the axes
+    of-end-pairs: your code uses the nearest pair of ends as the closest points. Use the
+      points of task 11.1, because the closest points can lie between the ends
+    largest-part: your code uses the largest component of p - o as the distance of the
+      closest points p and o. Use the norm of p - o instead
+    sum-of-parts: your code uses the sum of the absolute components of p - o as the
+      distance of the closest points p and o. Use the norm of p - o instead
     in-the-plane 2: your code does not use x in the distance. Use all three coordinates
     in-the-plane 3: your code does not use y in the distance. Use all three coordinates
     product-of-radii: your code subtracts the square root of the product of the radii.
-      Subtract their sum
+      Subtract the sum of the radii instead
     squares-of-radii: your code subtracts the squares of the radii. Subtract the radii
-      themselves
+      themselves instead
     over-the-radii: your code divides the distance by the sum of the radii. Subtract the
       sum instead
-    ends-and-middles: your code tests only the ends and the midpoints of both axes, but
-      the closest points can lie anywhere between the ends
-    same-share: your code uses the same fraction of the length on both axes, but each
-      closest point has its own fraction
+    ends-and-middles: your code tests only the ends and the midpoints of both axes. Use
+      the points of task 11.1, because the closest points can be anywhere on the axes
+    same-share: your code uses the same parameter for the points of both axes. Use the
+      points of task 11.1, because each closest point has its own parameter
     twice-the-larger: your code subtracts the larger radius twice. Subtract the radius
       of each capsule once
-    radii-as-sides: your code combines the radii as sqrt(ra^2 + rb^2), but both radii
-      lie along the same line, so add them
+    radii-as-sides: your code combines the radii as sqrt(ra^2 + rb^2). Use their sum,
+      because both radii lie along the same line
     root-of-squares: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
       tangent. The distance is |p - o| - (ra + rb)
     root-of-squares 2: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
       tangent. The distance is |p - o| - (ra + rb)
-    least-part: your code uses the smallest component of p - o instead of its norm
-    parts-with-signs: your code adds the components of p - o with their signs. Take the
-      norm
-    parts-with-signs 2: your code adds the components of p - o with their signs. Take
-      the norm
+    least-part: your code uses the smallest component of p - o as the distance of the
+      closest points p and o. Use the norm of p - o instead
+    parts-with-signs: your code uses the sum of the components of p - o, with their
+      signs, as the distance of the closest points p and o. Use the norm of p - o
+      instead
+    parts-with-signs 2: your code uses the sum of the components of p - o, with their
+      signs, as the distance of the closest points p and o. Use the norm of p - o
+      instead
     mean-square: your code takes the root of the mean of the squares. Take the root of
-      their sum
-    lengths-differ: your code uses the difference of the norms of p and o. Take the norm
-      of p - o
+      the sum of the squares instead
+    lengths-differ: your code uses the difference of the norms of the closest points p
+      and o. Use the norm of p - o instead
     cut-once: your code clamps the distance at 0 between the subtractions of ra and rb.
-      Do not clamp it
-    one-number-inside: for capsules that overlap, your code always returns -1. The
-      result should depend on the penetration depth
-    one-number-inside 2: for capsules that overlap, your code returns minus the smaller
-      radius. The result should depend on the penetration depth
-    axes-inside: for capsules that overlap, your code returns minus the distance between
-      the axes. Subtract the radii from this distance
-    ends-only: your code assumes that one of the closest points is an end, but both
-      points can lie between the ends
-    ends-only 2: your code tests only the ends of the first axis, but the closest point
-      of this axis can lie between them
-    ends-only 3: your code tests only the ends of the second axis, but the closest point
-      of this axis can lie between them
-    sampled: your code tests only some points of each axis, but the closest points can
-      lie between them
-    sampled 2: your code tests only some points of each axis, but the closest points can
-      lie between them
-    sampled 3: your code tests only some points of each axis, but the closest points can
-      lie between them
-    sampled 4: your code tests only some points of each axis, but the closest points can
-      lie between them
+      Omit this clamp, because the distance may become negative
+    one-number-inside: your code always returns -1 for capsules that overlap. Return the
+      distance between the axes minus both radii
+    one-number-inside 2: your code returns minus the smaller radius for capsules that
+      overlap. Return the distance between the axes minus both radii
+    axes-inside: your code returns minus the distance between the axes for capsules that
+      overlap. Return the distance between the axes minus both radii
+    ends-only: your code assumes that one of the closest points is an end. Use the s and
+      t of the infinite lines where both lie in [0, 1], because both points can lie
+      between the ends
+    ends-only 2: your code tests only the ends of the first axis. Use the points of task
+      11.1, because the closest point of this axis can lie between the ends
+    ends-only 3: your code tests only the ends of the second axis. Use the points of
+      task 11.1, because the closest point of this axis can lie between the ends
+    sampled: your code tests only some points of each axis. Use the points of task 11.1,
+      because the closest points can lie between the tested points
+    sampled 2: your code tests only some points of each axis. Use the points of task
+      11.1, because the closest points can lie between the tested points
+    sampled 3: your code tests only some points of each axis. Use the points of task
+      11.1, because the closest points can lie between the tested points
+    sampled 4: your code tests only some points of each axis. Use the points of task
+      11.1, because the closest points can lie between the tested points
     lines: your code treats the axes as infinite lines. Clamp the closest points to the
       axes
     grown-axes: your code extends each axis by the radius at both ends and also

@@ -16,9 +16,9 @@ row = Row(
     held_out=[
         HeldOut(
             "parallel-not-handled",
-            "Your result is wrong for some parallel segments. For them, a c - b b is "
-            "0, so the s of the lines is 0 / 0. Start with any s, then compute t and "
-            "clamp it, and then compute s for this t and clamp it.",
+            "Your result is wrong for some parallel segments. For parallel segments, "
+            "a c - b b is 0, so the formula for s gives 0 / 0. Start with any s, "
+            "compute t from s and clamp t, then compute s from t and clamp s.",
             lambda rng: pairs.arrays(pairs.PARALLEL),
         ),
         HeldOut(
@@ -30,22 +30,22 @@ row = Row(
         HeldOut(
             "nearly-parallel",
             "Your result is wrong for segments that are half a degree from parallel. "
-            "They have a single closest pair. Is a c - b b compared with too large a "
-            "fraction of a c?",
+            "They have a single closest pair. Does your code compare a c - b b with "
+            "too large a fraction of a c?",
             lambda rng: pairs.arrays(pairs.NEARLY_PARALLEL),
         ),
         HeldOut(
             "point-not-handled",
             "Your result is wrong if a segment is a point, that is, if its length is "
-            "0. Avoid 0 / 0 by using any value of its parameter, and then clamp the "
-            "parameter of the other segment.",
+            "0. Use any value for the parameter of this segment, so that 0 / 0 does "
+            "not occur, and clamp the parameter of the other segment.",
             lambda rng: pairs.arrays(pairs.POINTS),
         ),
         HeldOut(
             "size-absolute",
-            "Your result is correct for lengths in metres, but not in millimetres. The "
-            "unit of a c - b b is a length to the fourth power, so compare it with a "
-            "fraction of a c, not with a constant.",
+            "Your result is correct for lengths of metres, but not of millimetres. "
+            "The unit of a c - b b is a length to the fourth power. Compare a c - b b "
+            "with a fraction of a c, not with a constant.",
             lambda rng: [
                 tuple(0.002 * x for x in pairs.segments(rng, one))
                 for one in ("inside", "an end", "inside", "an end")
@@ -71,96 +71,109 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, b0, b1):
-    """not-clamped: your code does not clamp s and t to [0, 1], so the points can lie
-      beyond the ends of the segments
-    clamped-apart: your code clamps s and t independently, but clamping one of them
-      changes the optimal value of the other
-    s-not-again: your code does not recompute s after it clamps t, but the optimal s
-      depends on t
-    s-not-again 2: your code does not recompute t after it clamps s, but the optimal t
-      depends on s
-    s-not-again 3: your code does not recompute t after the last clamp of s, but the
-      optimal t depends on s
-    t-not-cut: your code never clamps t, so the point of the second segment can lie
-      beyond an end
-    s-not-cut: your code never clamps s, so the point of the first segment can lie
-      beyond an end
-    cut-below-only: your code clamps s and t at 0 but not at 1, so the points can lie
-      beyond the ends
-    cut-above-only: your code clamps s and t at 1 but not at 0, so the points can lie
-      before the starts
-    ends-only: your code assumes that one of the closest points is an end, but both
-      points can lie between the ends
-    end-pairs: your code returns the nearest pair of ends, but the closest points can
-      lie between the ends
+    """not-clamped: your code does not clamp s and t. Clamp them to [0, 1], because
+      otherwise the points can lie beyond the ends of the segments
+    clamped-apart: your code clamps s and t independently. Clamping one of them changes
+      the optimal value of the other, so compute the other one again
+    s-not-again: your code does not recompute s after it clamps t. Compute s again,
+      because the optimal s depends on t
+    s-not-again 2: your code does not recompute t after it clamps s. Compute t again,
+      because the optimal t depends on s
+    s-not-again 3: your code does not recompute t after the last clamp of s. Compute t
+      again, because the optimal t depends on s
+    t-not-cut: your code never clamps t. Clamp it to [0, 1], because otherwise the point
+      of the second segment can lie beyond an end
+    s-not-cut: your code never clamps s. Clamp it to [0, 1], because otherwise the point
+      of the first segment can lie beyond an end
+    cut-below-only: your code clamps s and t only at 0. Clamp them at 1 too, because
+      otherwise the points can lie beyond the ends
+    cut-above-only: your code clamps s and t only at 1. Clamp them at 0 too, because
+      otherwise the points can lie before the start points
+    ends-only: your code assumes that one of the closest points is an end. Use the s and
+      t of the infinite lines where both lie in [0, 1], because both points can lie
+      between the ends
+    end-pairs: your code returns the nearest pair of ends. Compute s and t instead,
+      because the closest points can lie between the ends
     end-pairs 2: your code uses the end of the first segment that is nearest to the
-      second. The closest point can lie between the ends
-    w-sign: your w has the wrong sign. It should run from the start of the second
-      segment to the start of the first, a0 - b0
-    d-and-e-swapped: your code swaps d and e, but d = u . w belongs to the first segment
+      second segment. Compute s instead, because the closest point can lie between the
+      ends
+    w-sign: your vector w has the wrong sign. It should run from b0 to a0, w = a0 - b0
+    d-and-e-swapped: your code swaps d and e. The products are d = u . w and e = v . w
     numerator-sign: your numerator for s has the wrong sign. The parameter s should be
       (b e - c d) / (a c - b b)
-    b-sign: your b has the wrong sign. The derivatives are a s - b t + d and b s - c t +
-      e
+    b-sign: your b has the wrong sign. At the minimum, a s - b t + d = 0 and b s - c t +
+      e = 0
     across-plus: your denominator is a c + b b. It should be a c - b b, which is 0 for
       parallel segments
     across-of-lengths: your denominator is a c, which is correct only for perpendicular
       segments. It should be a c - b b
-    swapped-to-s: your code swaps s and t. The parameter s belongs to the first segment
+    swapped-to-s: your code swaps s and t. The parameter s belongs to the first segment,
+      and t to the second
     points-swapped: your point of the second segment comes first. Return the point of
       the first segment first
-    middles: your code returns the midpoints of the segments, but the closest points can
-      be anywhere on them
-    starts: your code returns the starts of the segments, but the closest points can be
-      anywhere on them
-    same-share: your code sets t equal to s, but each segment has its own parameter
-    shares: your code returns s u and t v. Add the starts a0 and b0
-    beyond-the-ends: your points are measured from a1 and b1, but s and t are measured
-      from a0 and b0
-    t-from-the-end: your code measures t from b1. Measure it from b0
-    s-from-the-end: your code measures s from a1. Measure it from a0
-    unit-directions: your code normalises u and v, so s and t are in metres, but your
-      code clamps them to [0, 1]
+    middles: your code returns the midpoints of the segments. Compute s and t instead,
+      because the closest points can be anywhere on the segments
+    starts: your code returns the start points of the segments. Compute s and t instead,
+      because the closest points can be anywhere on the segments
+    same-share: your code sets t equal to s. Compute t separately, because each segment
+      has its own parameter
+    shares: your code returns s u and t v. Add the start points a0 and b0
+    beyond-the-ends: your code measures the two points from a1 and b1. Measure them from
+      a0 and b0, where s and t are 0
+    t-from-the-end: your code measures t from b1. Measure t from b0 instead
+    s-from-the-end: your code measures s from a1. Measure s from a0 instead
+    unit-directions: your code normalises u and v, so s and t are lengths in metres and
+      cannot be clamped to [0, 1]. Use u and v themselves
     nearest-to-the-middle: your code returns the midpoint of the second segment and the
-      point of the first that is nearest to this midpoint. Compute both closest points
-    sampled: your code tests only some points of each segment, but the closest points
-      can lie between them
-    sampled 2: your code tests only some points of each segment, but the closest points
-      can lie between them
-    sampled 3: your code tests only some points of each segment, but the closest points
-      can lie between them
-    ends-where-cut: where s or t of the lines lies outside [0, 1], your code returns the
-      nearest pair of ends. One of the closest points can still lie between the ends
-    ends-where-cut 2: where s or t of the lines lies outside [0, 1], your code tests
-      only the ends of the first segment. Test the ends of the second segment too
-    ends-where-cut 3: where s or t of the lines lies outside [0, 1], your code tests
-      only the ends of the second segment. Test the ends of the first segment too
-    start-where-cut: where s or t of the lines lies outside [0, 1], your code sets s to
-      0. Clamp s instead
-    start-where-cut 2: your code sets an s outside [0, 1] to 0. An s above 1 should
-      become 1
-    start-where-cut 3: your code sets an s outside [0, 1] to 0.5. Clamp s instead
-    start-where-cut 4: your code sets s and t outside [0, 1] to 0. A value above 1
-      should become 1
+      nearest point of the first. Compute t as well, because the closest point can be
+      anywhere on the second segment
+    sampled: your code tests only some points of each segment. Compute s and t instead,
+      because the closest points can lie between the tested points
+    sampled 2: your code tests only some points of each segment. Compute s and t
+      instead, because the closest points can lie between the tested points
+    sampled 3: your code tests only some points of each segment. Compute s and t
+      instead, because the closest points can lie between the tested points
+    ends-where-cut: if the closest points of the infinite lines are not both on the
+      segments, your code returns the nearest pair of ends. Clamp s instead, and compute
+      t again
+    ends-where-cut 2: if the closest points of the infinite lines are not both on the
+      segments, your code tests only the ends of the first segment. Test the ends of the
+      second segment too
+    ends-where-cut 3: if the closest points of the infinite lines are not both on the
+      segments, your code tests only the ends of the second segment. Test the ends of
+      the first segment too
+    start-where-cut: if the closest points of the infinite lines are not both on the
+      segments, your code sets s to 0. Clamp s instead
+    start-where-cut 2: your code sets an s outside [0, 1] to 0. Clamp s, so that a value
+      above 1 becomes 1
+    start-where-cut 3: your code sets an s outside [0, 1] to 0.5. Clamp s to [0, 1]
+      instead
+    start-where-cut 4: your code sets s and t outside [0, 1] to 0. Clamp them, so that a
+      value above 1 becomes 1
     one-end-cut: your code recomputes s where t is below 0, but not where t is above 1.
       Recompute s in both cases
     one-end-cut 2: your code recomputes s where t is above 1, but not where t is below
       0. Recompute s in both cases
-    t-one-end-cut: your code clamps t at 1 but not at 0, so the point of the second
-      segment can lie before b0
-    t-one-end-cut 2: your code clamps t at 0 but not at 1, so the point of the second
-      segment can lie beyond b1
-    a-start-alone: your code returns the start of the first segment and the point of the
-      second that is nearest to this start. Compute both closest points
-    a-middle-alone: your code returns the midpoint of the first segment and the point of
-      the second that is nearest to this midpoint. Compute both closest points
+    t-one-end-cut: your code clamps t only at 1. Clamp it at 0 too, because otherwise
+      the point of the second segment can lie before b0
+    t-one-end-cut 2: your code clamps t only at 0. Clamp it at 1 too, because otherwise
+      the point of the second segment can lie beyond b1
+    a-start-alone: your code returns the start of the first segment and the nearest
+      point of the second. Compute s as well, because the closest point can be anywhere
+      on the first segment
+    a-middle-alone: your code returns the midpoint of the first segment and the nearest
+      point of the second. Compute s as well, because the closest point can be anywhere
+      on the first segment
     farthest: your code selects the farthest of the candidate pairs. Select the nearest
-    one-round: your code sets s = 0 and then computes t and s only once, which does not
-      reach the minimum
-    one-round 2: your code sets s = 0.5 and then computes t and s only once, which does
-      not reach the minimum
+      pair instead
+    one-round: your code starts with s = 0 and then computes t and s only once, which
+      does not reach the minimum. Start with the s of the infinite lines, clamped to [0,
+      1]
+    one-round 2: your code starts with s = 0.5 and then computes t and s only once,
+      which does not reach the minimum. Start with the s of the infinite lines, clamped
+      to [0, 1]
     difference: both of your rows contain the difference of the two points. Return the
-      points themselves
+      points themselves instead
     """
     u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
     right = thrice(a, b, c, d, e)
@@ -352,8 +365,8 @@ def least_angle(share):
 
 
 ALIKE = (
-    "your code treats segments that differ by a few degrees as parallel, but they have "
-    "a single closest pair"
+    "your code treats segments that differ by a few degrees as parallel. Use a much "
+    "smaller limit for a c - b b, because such segments have a single closest pair"
 )
 SELDOM = "hardly a pair in a run is so nearly parallel"
 row.wrong("nearly-parallel", hidden=SELDOM)(least_angle(1e-3))
@@ -377,8 +390,8 @@ def rounds(n, start):
 
 
 FEW = (
-    "your code alternates between t and s, but it stops after too few iterations. Each "
-    "iteration only approaches the minimum"
+    "your code alternates between t and s, but it stops too early. Start with the s "
+    "of the infinite lines, clamped to [0, 1], so that one iteration is enough"
 )
 for n in (2, 3, 4, 5, 10):
     for start in (0.0, 0.5):

@@ -115,35 +115,36 @@ def _(rng):
 def _(s, distance, delta_q, radii):
     """no-bound: your code adds the distance in metres to s. First divide it by the
       bound on the motion per unit of s
-    signs-kept: your sum keeps the signs of delta_q, so opposite rotations cancel. Take
-      absolute values
+    signs-kept: your code adds the entries of delta_q with their signs, so opposite
+      rotations cancel. Take the absolute value of each entry first
     signs-kept 2: your code takes the absolute value after the sum, so opposite
-      rotations cancel. Take the absolute value for each joint
-    fastest-joint-only: your bound uses only the largest product, but the motions of all
-      joints add up
-    fastest-joint-only 2: your bound uses only the largest |delta_q|, but the motions of
-      all joints add up
+      rotations cancel. Take the absolute value of each entry of delta_q first
+    fastest-joint-only: your code uses only the largest product |delta_q_i| * radii_i.
+      Add the products of all joints, because their motions add up
+    fastest-joint-only 2: your bound is the largest |delta_q_i| times the largest
+      radius. Add |delta_q_i| * radii_i over all joints, because their motions add up
     norm-of-dq: your bound is the norm of delta_q times the largest radius, which is not
-      an upper bound. Add |delta_q_i| radii_i over all joints
-    norm-of-products: your code takes the norm of the products |delta_q_i| radii_i. Take
-      their sum
+      an upper bound. Add |delta_q_i| * radii_i over all joints
+    norm-of-products: your code takes the norm of the products |delta_q_i| * radii_i.
+      Take their sum instead
     norm-of-products 2: your code multiplies the norm of delta_q by the norm of radii.
-      Add the products |delta_q_i| radii_i
-    largest-reach: your code uses the largest radius for every joint, which is safe but
-      not the bound in the task
-    reach-forgotten: your code omits the radii, but a rotation in radians becomes a
-      distance only when multiplied by a radius
-    dq-forgotten: your bound omits delta_q, but a longer motion needs a shorter step
-    of-what-is-left: your code multiplies the step by 1 - s, but delta_q belongs to the
-      whole motion, so this factor is wrong
-    of-what-is-left 2: your code divides the step by 1 - s, but delta_q belongs to the
-      whole motion, so this factor is wrong
+      Add the products |delta_q_i| * radii_i instead
+    largest-reach: your code uses the largest radius for every joint, so its steps are
+      shorter than necessary. Use the radius of each joint
+    reach-forgotten: your code omits the radii. Multiply each |delta_q_i| by radii_i,
+      which bounds the motion in metres
+    dq-forgotten: your code omits delta_q in the bound. A longer motion moves the arm
+      further, so the bound should grow with delta_q
+    of-what-is-left: your code multiplies the step by 1 - s. The argument delta_q
+      belongs to the whole motion, so omit this factor
+    of-what-is-left 2: your code divides the step by 1 - s. The argument delta_q belongs
+      to the whole motion, so omit this factor
     half-a-step: your step is half as long as the bound allows. Use the whole step
     twice-a-step: your step is twice as long as the bound allows, so the arm can hit the
-      obstacle
-    multiplied: your code multiplies the distance by the bound. Divide by it, because a
-      faster motion needs a shorter step
-    s-forgotten: your code returns the step alone. Add it to s
+      obstacle. Divide the distance by the bound itself
+    multiplied: your code multiplies the distance by the bound. Divide the distance by
+      the bound, because a faster motion needs a shorter step
+    s-forgotten: your code returns the step alone. Return s plus the step
     not-capped: your result can exceed 1, the end of the motion. Clamp it at 1
     standing-still: if no joint moves, your code divides by 0. Return 1, because the
       rest of the motion is collision-free
@@ -158,37 +159,37 @@ def _(s, distance, delta_q, radii):
       itself
     still-before-touching: your code tests for a motion of 0 before it tests for
       contact. If the arm is in contact, return s even if no joint moves
-    reach-backwards: your radii are in reverse order, but the first radius belongs to
-      joint 1
-    reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii,
-      but each joint has its own radius
+    reach-backwards: your code uses the radii in reverse order. The first radius belongs
+      to joint 1
+    reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii.
+      Multiply each |delta_q_i| by its own radius, and then add the products
     reaches-summed 2: your code multiplies the largest |delta_q| by the sum of the
-      radii, but each joint has its own radius
-    reaches-summed 3: your code multiplies the norm of delta_q by the sum of the radii,
-      but each joint has its own radius
-    one-direction: your code treats negative entries of delta_q as 0, but rotations in
-      both directions move the arm
-    one-left-out: your code omits the last joint in the sum
-    one-left-out 2: your code omits the first joint in the sum
-    chord: your code uses the chord 2 sin(delta_q / 2), but a point moves along the arc,
-      which is longer
-    mean-of-joints: your bound is the mean over the joints, but the motions of all
-      joints add up
-    step-capped: your code limits the step to 1, but s plus the step can exceed 1. Limit
-      the sum
+      radii. Multiply each |delta_q_i| by its own radius, and then add the products
+    reaches-summed 3: your code multiplies the norm of delta_q by the sum of the radii.
+      Multiply each |delta_q_i| by its own radius, and then add the products
+    one-direction: your code treats negative entries of delta_q as 0. Take absolute
+      values, because rotations in both directions move the arm
+    one-left-out: your code omits the last joint in the sum. Sum over all joints
+    one-left-out 2: your code omits the first joint in the sum. Sum over all joints
+    chord: your code uses the chord 2 sin(delta_q / 2). Use |delta_q|, because a point
+      moves along the arc, which is longer
+    mean-of-joints: your bound is the mean over the joints. Take the sum, because the
+      motions of all joints add up
+    step-capped: your code limits the step to 1. Limit the sum of s and the step,
+      because this sum can exceed 1
     limit-of-the-whole: your code compares the distance with the bound on the whole
-      motion. Compare the distance with the bound on the remaining motion, which is 1 -
-      s times as large
+      motion. Multiply the bound by 1 - s, because only this part of the motion remains
     step-capped 2: your code returns the smaller of 1 - s and the step. Return the
-      smaller of 1 and s + step
-    max-for-min: your code uses max instead of min, so the result is never below 1
+      smaller of 1 and s + step instead
+    max-for-min: your code uses max instead of min, so the result is never below 1.
+      Return the smaller of 1 and s + step
     shares-summed: your code adds the steps that each joint alone would allow. Add the
-      motions first, then divide
+      products |delta_q_i| * radii_i first, and then divide the distance by this sum
     careful: your code uses only a part of the step that the bound allows. Use the whole
       step
     careful 2: your code uses only a part of the step that the bound allows. Use the
       whole step
-    time: your code returns the number of steps, 1 / step. Return s + step
+    time: your code returns the number of steps, 1 / step. Return s + step instead
     """
     speed = np.abs(delta_q) @ radii
     inside = distance <= 0
@@ -265,8 +266,8 @@ def _(s, distance, delta_q, radii):
 
 @row.wrong
 def far_is_free(s, distance, delta_q, radii):
-    """if the distance is more than half a metre, your code returns 1, but a long motion
-    can use up any distance"""
+    """if the distance is more than half a metre, your code returns 1. Use the bound,
+    because a long motion can exceed any distance"""
     if distance <= 0:
         return s
     speed = np.abs(delta_q) @ radii

@@ -57,87 +57,97 @@ def _(rng):
 
 @row.wrongs
 def _(link_lengths, link_radii):
-    """to-the-tip-only: your bound uses only the last link. A point on an earlier link
-      can be farther away, so take the maximum over all distal links
-    own-link-only: your bound uses only the joint's own link, but the joint also moves
-      the distal links
-    next-only: your bound stops at the next link. Use the result for the next joint
-    from-the-base: your code measures from the base. Measure from joint i to the links
-      distal to it
-    offset-one-late: your code uses the link length of the next joint, but
-      link_lengths[i] is the distance from link i to the next link
-    offset-of-the-last: your code adds the length of the last link, but no link follows
-      it
-    offset-of-the-last 2: your code uses the length of the last link as a radius, but no
-      link follows it
+    """to-the-tip-only: your code uses only the last link for the bound. A point on an
+      earlier link can be farther away, so take the maximum over all distal links
+    own-link-only: your code uses only the joint's own link for the bound. Take the
+      maximum over the distal links too, because the joint also moves them
+    next-only: your code stops at the next link. Use the bound of the next joint instead
+      of the radius of the next link
+    from-the-base: your code measures from the base. Measure from joint i to its distal
+      links instead
+    offset-one-late: for joint i, your code uses link_lengths[i + 1]. The distance from
+      link i to the next link is link_lengths[i]
+    offset-of-the-last: your code adds the length of the last link. Omit it, because no
+      link follows the last one
+    offset-of-the-last 2: your code uses the length of the last link as a radius. Omit
+      it, because no link follows the last one
     offset-to-its-own: your code also adds the link length to the joint's own link
       radius. Add this length only for the distal links
     far-forgotten: your code adds only the link lengths. Include the link radii
     offsets-forgotten: your code omits the link lengths, so the result is the largest
-      link radius
-    all-summed: your code adds the radii of all distal links, but only one point is the
-      farthest
-    largest-far: your code uses the largest link radius at the end of the arm, but each
-      radius belongs to its own link
-    least: your code takes the smallest distance, but the upper bound is the largest
-      distance
-    not-in-a-row: your code omits the links beyond the next one. Use the result for the
-      next joint, not its link radius
-    euclid: your code combines the lengths as the root of a sum of squares, but in the
-      stretched arm they add up
+      link radius. Add the link lengths between the joint and the distal link
+    all-summed: your code adds the radii of all distal links. Only one point is the
+      farthest, so use only the radius of its link
+    largest-far: your code adds the largest link radius of the arm to the distance of
+      the last link. Add each radius to the distance of its own link, and then take the
+      maximum
+    least: your code takes the minimum of the link radius and the sum of the link length
+      and the bound of the next joint. Take the maximum, because the bound must hold for
+      every distal point
+    not-in-a-row: your code adds the link length to the joint's own link radius. Add the
+      link length to the bound of the next joint, and take the maximum of this sum and
+      the radius
+    euclid: your code combines the lengths as the root of a sum of squares. Use their
+      sum, because the lengths add up in the stretched arm
     one-for-all: your code returns the largest result for every joint. Each joint should
       have its own bound
-    backwards: your result is in reverse order, but its first entry belongs to joint 1
+    backwards: your result is in reverse order. Its first entry should belong to joint 1
     sum-from-the-base: your code sums the link lengths from the base to the joint. Sum
-      them from the joint to the distal link
-    far-of-its-own: your code combines the sum of all distal link lengths with the
-      radius of the joint's own link
-    far-of-its-own 2: your code combines the sum of all distal link lengths with the
-      radius of the joint's own link
+      the link lengths from the joint to the distal link
+    far-of-its-own: your code adds the radius of the joint's own link to the sum of all
+      distal link lengths. Add each radius to the distance of its own link, and then
+      take the maximum
+    far-of-its-own 2: your code adds the radius of the joint's own link to the sum of
+      all distal link lengths. Add each radius to the distance of its own link, and then
+      take the maximum
     forwards: your code works from the base outwards. Start at the last joint, because a
       joint moves the links distal to it
-    less-the-base: your code uses the farthest point of the whole arm for every joint,
-      but only the links distal to the joint matter
+    less-the-base: your code uses the farthest point of the whole arm for every joint.
+      Use only the links distal to the joint
     less-the-base 2: your code measures the farthest distal point from the base. Measure
-      it from the joint
-    largest-far-behind: your bound adds the largest distal link radius to the distance
-      of the last joint. Add each radius to the distance of its own joint, and then take
-      the maximum
-    largest-far-behind 2: your code places the largest link radius beyond the next joint
-      at the last link, but each radius belongs to its own link
+      it from the joint instead
+    largest-far-behind: your code adds the largest distal link radius to the distance of
+      the last link. Add each radius to the distance of its own link, and then take the
+      maximum
+    largest-far-behind 2: your code adds the largest link radius beyond the joint's own
+      link to the distance of the last link. Add each radius to the distance of its own
+      link, and then take the maximum
     own-offset-repeated: your code repeats the joint's own link length for every distal
-      link, but each link has its own length
-    offset-of-the-one-before: your code uses the link length of the previous joint, but
-      link_lengths[i] is the distance from link i to the next link
-    far-of-the-next: your code uses the radius of the next link instead of the joint's
-      own link radius
-    own-left-out: your code omits the joint's own link, but the farthest point can be on
-      it
-    own-or-tip: your bound uses only the joint's own link and the last link, but a point
-      between them can be farther away
-    two-behind-only: your bound uses only the next two links, but the joint moves all
-      distal links
+      link. Use the length of each link
+    offset-of-the-one-before: for joint i, your code uses link_lengths[i - 1]. The
+      distance from link i to the next link is link_lengths[i]
+    far-of-the-next: your code uses the radius of the next link in the bound of a joint.
+      Use the radius of the joint's own link instead
+    own-left-out: your code omits the joint's own link. Include it, because the farthest
+      point can be on this link
+    own-or-tip: your code uses only the joint's own link and the last link for the
+      bound. Include all links between them, because a point on one of them can be
+      farther away
+    two-behind-only: your code uses only the joint's own link and the next two links for
+      the bound. Include all distal links, because the joint moves all of them
     sum-not-largest: your code adds the link radius to the maximum of the link length
-      and the next result. Take the maximum of the link radius and the sum of the other
-      two
+      and the bound of the next joint. Take the maximum of the link radius and the sum
+      of the other two
     largest-of-three: your code takes the maximum of the link radius, the link length
-      and the next result. Add the last two first
+      and the bound of the next joint. Add the link length and the bound before you take
+      the maximum
     largest-far-next: your code adds the largest link radius to the link length. Add the
-      result for the next joint
-    mean-not-largest: your code takes the mean over the distal links, but an upper bound
-      is the maximum
+      bound of the next joint instead
+    mean-not-largest: your code takes the mean over the distal links. Take the maximum,
+      because the bound must hold for every distal point
     offsets-alone: your code takes the maximum of the link radius and the sum of the
       link lengths. Add the distal radii to the lengths
     last-link-forgotten: your code treats the radius of the last link as 0. Use the last
       entry of link_radii
-    last-link-forgotten 2: your code omits the last link, but its farthest point can be
-      the farthest of all
+    last-link-forgotten 2: your code omits the last link. Include it, because the
+      farthest point of the arm can be on the last link
     offsets-to-the-end: your code adds all link lengths, including the last one, and the
-      radius of the last link. No link follows the last one
-    offset-too-early: your code adds the length after each link before the radius of
-      that link, but this length belongs to the next link
-    far-twice: your code adds both the joint's own link radius and the radius of the
-      farthest link, but only one point is the farthest
+      radius of the last link. Omit the last length, because no link follows the last
+      one
+    offset-too-early: your code adds link_lengths[j] to the radius of link j itself.
+      This length belongs only to the links after link j
+    far-twice: your code adds the joint's own link radius to the bound. The bound should
+      be the maximum of this radius and the distances to the points of the distal links
     """
     n = len(link_radii)
     right = distal_radii(link_lengths, link_radii)

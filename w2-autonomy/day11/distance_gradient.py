@@ -81,50 +81,51 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p, o, link):
-    """towards-the-obstacle: your code reverses the signs. The distance grows along p -
-      o, not along o - p
-    columns-behind-kept: your entries for the joints distal to the link are not 0, but
-      these joints do not move the link
-    own-joint-left-out: your entry for the link's own joint is 0, but joint 4, for
-      example, also moves link 4
-    one-column-too-many: your entry for joint `link` + 1 is not 0, but this joint moves
-      only distal links
+    """towards-the-obstacle: your gradient has the opposite sign. The distance increases
+      if p moves along p - o, so use the unit vector of p - o
+    columns-behind-kept: your entries for the joints distal to the link are not 0. Set
+      them to 0, because these joints do not move the link
+    own-joint-left-out: your entry for the link's own joint is 0. Include this joint,
+      because it also moves the link
+    one-column-too-many: your entry for joint `link` + 1 is not 0. Set it to 0, because
+      this joint moves only distal links
     from-the-link-on: your code keeps the link's own joint and the joints distal to it.
-      Keep the joints up to the link
-    first-joint-left-out: your entry for joint 1 is 0, but joint 1 moves every link
-    own-joint-only: in your result, only the entry for the link's own joint is not 0,
-      but every joint up to the link moves it
+      Keep the joints up to the link instead
+    first-joint-left-out: your entry for joint 1 is 0. Include joint 1, because it moves
+      every link
+    own-joint-only: your result is 0 except for the link's own joint. Include all joints
+      up to the link, because all of them move it
     columns-before-dropped: your code keeps the joints distal to the link. Keep the
-      joints up to the link
-    rotation-forgotten: the term omega x p has no effect in your code, because this term
-      is missing or contains p - o instead of p. The velocity v alone is the velocity of
-      the point at the world origin
-    rotation-only: your code omits v, but the velocity of p is v + omega x p
-    cross-the-other-way: your cross product has the wrong order. The velocity of p is v
-      + omega x p
-    normal-not-unit: your code does not normalise the normal, so the result is
-      multiplied by the distance. Divide the normal by the distance
-    normal-squared: your code divides the normal by the squared distance. Divide by the
-      distance
-    half: your result has an extra factor 1/2. Remove it
+      joints up to the link instead
+    rotation-forgotten: your result contains only v. Add omega x p, with p itself and
+      not with p - o, because the velocity of p is v + omega x p
+    rotation-only: your code omits v. Use v + omega x p, which is the velocity of p
+    cross-the-other-way: your cross product has the wrong order. Use v + omega x p,
+      which is the velocity of p
+    normal-not-unit: your code does not normalise p - o. Divide p - o by its norm,
+      because otherwise the result contains the distance as a factor
+    normal-squared: your code divides p - o by the squared distance. Divide it by the
+      distance instead
+    half: your result contains a factor of 1/2. Omit this factor
     normal-of-p: your normal points from the world origin to p. It should point from o
       to p
     normal-of-o: your normal points from the world origin to o. It should point from o
       to p
-    only-along-z: your code uses only the z component. Project the velocity onto the
-      normal
+    only-along-z: your code uses only the z component of the velocity. Project the
+      velocity onto the normal
     not-projected: your code returns the speed of p. Return the component of the
-      velocity along the normal
-    size-only: your code returns the absolute values, but a negative entry means that
-      the distance decreases
-    parts-added: your code divides the normal by the sum of the components' absolute
-      values. Divide by the norm of p - o
-    largest-part: your code divides the normal by the largest component. Divide by the
-      norm of p - o
+      velocity along the normal instead
+    size-only: your code returns the absolute values of the entries. Keep their signs,
+      because a negative entry means that the distance decreases
+    parts-added: your code divides p - o by the sum of its absolute components. Divide
+      it by its norm instead
+    largest-part: your code divides p - o by its largest absolute component. Divide it
+      by its norm instead
     two-directions: your code normalises p and o separately. Normalise their difference
     parts-summed: your code adds the absolute values of the velocity components. Project
-      the velocity onto the normal
-    summed-up: your entries are cumulative sums, but each entry belongs to one joint
+      the velocity onto the normal instead
+    summed-up: your entries are cumulative sums. Return the derivative for each joint
+      alone
     one-place-early: each of your entries is one position too early. The first entry
       belongs to joint 1
     one-place-late: each of your entries is one position too late. The first entry
@@ -134,7 +135,7 @@ def _(J_space, p, o, link):
       belongs to joint 1
     own-length: your code normalises the result. Return the gradient itself
     of-the-square: your code returns the gradient of the squared distance, 2 d times the
-      gradient of d. Return the gradient of d
+      gradient of d. Return the gradient of d instead
     """
     n = (p - o) / np.linalg.norm(p - o)
     w, v = J_space[:3].T, J_space[3:].T

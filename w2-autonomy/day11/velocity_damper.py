@@ -118,79 +118,86 @@ MORE = (
     hidden={"coming-near": "hardly a speed in a run comes near and is slow enough"}
 )
 def _(qd, grad, distance, gain):
-    """always: your code changes velocities that are already allowed. Return qd for them
-    not-divided: your code does not divide the correction by grad . grad, so the
-      correction has the wrong norm unless grad has norm 1
+    """always: your code changes velocities that are already allowed. Return qd
+      unchanged if it is allowed
+    not-divided: your code does not divide the correction by grad . grad. Divide it,
+      because grad need not have norm 1
     divided-by-the-length: your code divides the correction by the norm of grad. Divide
-      it by grad . grad
+      it by grad . grad instead
     pushed-in: your correction has the wrong sign, so the arm moves nearer to the
-      obstacle
+      obstacle. Change qd along +grad, because the distance increases in this direction
     all-joints-slowed: your code scales all joints by one factor. Change only the
       component along grad
     all-joints-slowed 2: your code scales all joints by one factor. Change only the
       component along grad
-    stops-dead: your code stops the arm if it would be too fast. Keep the part of the
-      velocity that is allowed
-    stops-dead 2: your code stops the arm if it would be too fast, and also if grad is
-      0. Keep the part of the velocity that is allowed
-    part-removed: your code removes the whole component along grad, but an approach
-      within the bound is allowed
+    stops-dead: your code stops the arm if it approaches the obstacle too fast. Keep the
+      part of the velocity that is allowed
+    stops-dead 2: your code stops the arm if it approaches the obstacle too fast, and
+      also if grad is 0. Keep the part of the velocity that is allowed
+    part-removed: your code removes the whole component along grad. Keep the part that
+      the bound allows
     sign-of-the-bound: your bound has the wrong sign. The condition is grad . qd >=
-      -gain distance
+      -gain * distance
     distance-sign-lost: your code uses the absolute value of the distance. A negative
       distance should give a positive bound, which moves the arm away
-    gain-forgotten: your bound omits the gain. It should be -gain distance
-    distance-forgotten: your bound omits the distance. It should be -gain distance
-    distance-over-gain: your code divides the distance by the gain. Multiply the two
-    wrong-side: your code reverses the comparison, so it changes allowed velocities and
-      keeps those that are too fast
+    gain-forgotten: your code omits the gain in the bound. The bound should be -gain *
+      distance
+    distance-forgotten: your code omits the distance in the bound. The bound should be
+      -gain * distance
+    distance-over-gain: your code divides the distance by the gain. Multiply the
+      distance by the gain instead
+    wrong-side: your code reverses the comparison, so it changes the allowed velocities
+      and keeps the others. Change qd only if grad . qd is below the bound
     leaving-forbidden: your code also limits velocities away from the obstacle. Limit
       only the approach
-    joint-by-joint: your code applies the bound to each joint separately, but the bound
-      limits the sum grad . qd
-    joint-by-joint 2: your code clamps each joint velocity to the bound, but the bound
-      is in m/s and limits the sum grad . qd
-    largest-joint-only: your code changes only the joint with the largest entry of grad,
-      but the smallest change is along grad
-    slope-unit: your code normalises grad before it compares grad . qd with the bound,
-      which changes the value of grad . qd
+    joint-by-joint: your code applies the bound to each joint separately. Apply it to
+      grad . qd, the rate of change of the distance
+    joint-by-joint 2: your code clamps each joint velocity to the bound. Apply the bound
+      to grad . qd instead, because the bound is a velocity in m/s
+    largest-joint-only: your code changes only the joint with the largest entry of grad.
+      Change qd along grad instead, because this change is the smallest
+    slope-unit: your code normalises grad in grad . qd, but not in the bound. Use grad
+      itself in both
     only-inside: your code limits the velocity only if the distance is negative. Limit
       it at every distance
     standing-still: if grad is 0, your code divides by 0. Return qd
     part-alone: your code returns only the component along grad. Keep the other
       components of qd
-    left-where-it-overlaps: if the distance is not positive, your code returns qd. The
-      correction should move the arm away
+    left-where-it-overlaps: if the distance is not positive, your code returns qd. Apply
+      the correction, which moves the arm away from the obstacle
     stopped-where-it-overlaps: if the distance is not positive, your code returns 0.
       Keep the part of the velocity that leads away
-    no-way-out: your code clamps a negative distance to 0, so the arm is not moved away
-    coming-near: your code changes every velocity towards the obstacle, but an approach
-      within the bound is allowed
-    by-the-sizes: your code compares absolute values, so a fast motion away from the
-      obstacle is changed too
+    no-way-out: your code clamps a negative distance to 0, so an arm that overlaps the
+      obstacle is not moved away. Use the negative distance
+    coming-near: your code changes every velocity towards the obstacle. Keep an approach
+      that the bound allows
+    by-the-sizes: your code compares absolute values, so it also changes a fast motion
+      away from the obstacle. Keep the signs of grad . qd and of the bound
     half-of-it: your code adds only half of the correction. Add the whole correction
-    twice-of-it: your code adds twice the correction. Add it once
-    one-joint-only: your code changes only the first joint, but the smallest change is
-      along grad
-    one-joint-only 2: your code changes only the joint with the fastest approach, but
-      the smallest change is along grad
-    alike: your code gives every joint the same correction. Make it proportional to grad
-    by-signs: your code gives every joint a correction of the same size. Make it
+    twice-of-it: your code adds twice the correction. Add the correction only once
+    one-joint-only: your code changes only the first joint. Change qd along grad
+      instead, because this change is the smallest
+    one-joint-only 2: your code changes only the joint with the fastest approach. Change
+      qd along grad instead, because this change is the smallest
+    alike: your code gives every joint the same correction. Make the correction
       proportional to grad
-    a-seventh-each: your code gives each joint a seventh of the correction. Make it
-      proportional to grad
+    by-signs: your code gives every joint a correction of the same size. Make the
+      correction proportional to grad
+    a-seventh-each: your code gives each joint a seventh of the correction. Make the
+      correction proportional to grad
     divided-by-the-sum: your code divides the correction by the sum of grad. Divide it
-      by grad . grad
+      by grad . grad instead
     divided-by-the-largest: your code divides the correction by the square of the
-      largest entry of grad. Divide it by grad . grad
+      largest entry of grad. Divide it by grad . grad instead
     divided-by-qd: your code divides the correction by qd . qd. Divide it by grad . grad
-    those-that-come-near: your code changes only joints that approach the obstacle, but
-      the smallest change is along all of grad
+      instead
+    those-that-come-near: your code changes only joints that approach the obstacle.
+      Change qd along the whole grad instead, because this change is the smallest
     those-that-come-near 2: your code stops joints that approach the obstacle. Keep the
       part of the velocity that is allowed
-    rate-added: your code adds grad . qd to the bound. Subtract it from the bound to get
-      the missing speed
-    lack-alone: your code returns the correction alone. Add it to qd
+    rate-added: your code adds grad . qd to the bound in the correction. Subtract grad .
+      qd from the bound instead
+    lack-alone: your code returns the correction alone. Add the correction to qd
     """
     bound = -gain * distance
     rate = grad @ qd

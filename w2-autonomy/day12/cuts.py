@@ -96,10 +96,10 @@ OPTIONS = [
                           "Remove them only if this edge is free",
            {"check": lambda a, b, world: True}),
     Option("hit-for-free", "your code inverts the test, so it applies shortcuts that "
-                           "are blocked",
+                           "are blocked. Apply a shortcut if its edge is free",
            {"check": lambda a, b, world: not edge_free(a, b, world)}),
     Option("only-the-ends-checked", "your code tests only the two points. Test the "
-                                    "edge between them", {"check": _ends_free}),
+                                    "edge between these points", {"check": _ends_free}),
     Option("middle-checked", "your code tests only the midpoint of the edge. Test "
                              "the whole edge",
            {"check": _middle_free}),
@@ -142,10 +142,12 @@ OPTIONS = [
                               "row by one. Use int(u m) "
                               "for both", {"places": lambda pair, m: [
                int(min(pair) * (m - 1)), int(max(pair) * (m - 1)) + 1]}),
-    Option("two-apart-left", "your code skips rows that are two apart, but the point "
-                             "between them can be removed", {"least": 2}),
-    Option("three-apart-left", "your code skips rows that are two or three apart, "
-                               "but the points between them can be removed",
+    Option("two-apart-left", "your code skips rows that are two apart. Test these "
+                             "rows too, because the point between them can be removed",
+           {"least": 2}),
+    Option("three-apart-left", "your code skips rows that are two or three apart. "
+                               "Test these rows too, because the points between them "
+                               "can be removed",
            {"least": 3}),
     Option("pairs-backwards", "your code uses the pairs in reverse order. Start with "
                               "the first pair",
@@ -168,12 +170,12 @@ OPTIONS = [
          {"join": _kept(0, 1)}),
     Option("one-node-short", "your code removes row i too. Keep row i",
          {"join": _kept(-1, 0)}),
-    Option("both-ends-short", "your code removes rows i and j too. Keep them",
+    Option("both-ends-short", "your code removes rows i and j too. Keep both rows",
            {"join": _kept(-1, 1)}),
-    Option("one-too-many", "your code keeps the row before j. Remove it",
+    Option("one-too-many", "your code keeps the row before j. Remove this row",
            {"join": _kept(0, -1)}),
-    Option("one-too-many", "your code keeps the row after i. "
-                           "Remove it", {"join": _kept(1, 0)}),
+    Option("one-too-many", "your code keeps the row after i. Remove this row",
+           {"join": _kept(1, 0)}),
     Option("one-row-only", "your code removes only the row after i. Remove all rows "
                            "between i and j",
            {"join": lambda p, i, j: np.delete(p, i + 1, axis=0)}),

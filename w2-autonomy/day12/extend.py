@@ -138,18 +138,18 @@ def _(tree, sample, step, world):
     sample-itself: your new node is the sample itself. Limit the edge to one step with
       `steer`
     sample-itself 2: your new node is the sample itself, and your code tests the whole
-      edge to it. Limit the edge to one step with `steer`
-    point-only: your code tests only the new point. Test the whole edge to it
+      edge to the sample. Limit the edge to one step with `steer`
+    point-only: your code tests only the new point. Test the whole edge to the new point
     node-only: your code tests only the node from which the tree grows. Test the whole
       edge
     always-free: your code does not test the edge, so it reports every edge as free
     never-free: your code reports that no edge is free. Test the edge to the new point
-    edge-from-the-root: your code tests the edge from the root to the new point, but the
-      edge starts at the nearest node
+    edge-from-the-root: your code tests the edge from the root to the new point. Test
+      the edge from the nearest node to the new point instead
     edge-to-the-sample: your code tests the edge to the sample. Test only the edge to
       the new point
-    edge-of-two-steps: your code tests an edge of two steps, but the tree grows by one
-      step
+    edge-of-two-steps: your code tests an edge of two steps. Test an edge of one step,
+      because the tree grows by one step
     edge-on-from-there: your code tests the edge from the new point to the sample. Test
       the edge from the nearest node to the new point
     hit-for-free: your code inverts the third result. It should be True if the edge is
@@ -166,33 +166,33 @@ def _(tree, sample, step, world):
       to the sample
     farthest: your tree grows from the node farthest from the sample. It should grow
       from the nearest node
-    largest-difference: your code chooses the nearest node by the largest difference of
-      a coordinate. Use the Euclidean distance
+    largest-difference: your code chooses the nearest node by the largest coordinate
+      difference. Use the Euclidean distance instead
     largest-difference 2: your code finds the nearest node, and its distance, by the
-      largest difference of a coordinate. Use the Euclidean distance
+      largest coordinate difference. Use the Euclidean distance instead
     sum-of-differences: your code chooses the nearest node by the sum of the absolute
-      differences. Use the Euclidean distance
+      differences. Use the Euclidean distance instead
     squared-for-plain: your code divides the step by the squared distance to the sample.
-      Divide it by the distance
+      Divide it by the distance instead
     root-to-the-sample: your code tests the edge from the root to the sample. Test the
       edge from the nearest node to the new point
     standing-is-blocked: if the sample equals a node, your code reports a blocked edge.
       An edge of length 0 is free if the node is free
-    own-is-free: your code does not call the method `edge_free` of the world, so it
-      reports every edge of such a world as free
-    own-is-blocked: your code does not call the method `edge_free` of the world, so it
-      reports every edge of such a world as blocked
-    free-if-reached: your code reports a free edge only if the step reaches the sample,
-      but a step towards the sample is an edge too
+    own-is-free: your code does not call the method `edge_free` of a world that has one,
+      so it reports every edge of this world as free. Call this method
+    own-is-blocked: your code does not call the method `edge_free` of a world that has
+      one, so it reports every edge of this world as blocked. Call this method
+    free-if-reached: your code reports a free edge only if the step reaches the sample.
+      Report the result of the test for every step, because each step is an edge
     reached-is-free: if the step reaches the sample, your code does not test the edge.
       Test every edge
     ends-only: your code tests only the two ends of the edge. Test the points between
       them too
     twice-a-step: your edge has a length of two steps. Limit it to one step
     half-a-step: your edge has a length of half a step. Use the whole step
-    unit-step: your edge has length 1. Use the argument `step`
-    added-twice: your code adds the result of `steer` to the node, but `steer` already
-      returns a point, not a displacement
+    unit-step: your edge has length 1. Use the argument `step` instead
+    added-twice: your code adds the result of `steer` to the node. Use the result
+      itself, because `steer` returns a point and not a displacement
     nearest-of-the-free: your code selects the nearest node among those with a free
       edge. Select the nearest node of all and report whether its edge is free
     sample-where-blocked: if the edge is not free, your code returns the sample. Return

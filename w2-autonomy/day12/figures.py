@@ -71,11 +71,11 @@ def _plane(axes: Axes) -> None:
         axes.plot(*cut.T, "--", color=RED, label="after shortcutting")
     axes.plot(*start, "o", color=BLUE)
     axes.plot(*goal, "s", color=ORANGE)
-    axes.set(
-        aspect="equal", xlim=(-1.35, 1.35), ylim=(-1.35, 2.45), title="RRT-Connect"
-    )
+    axes.set(aspect="equal", xlim=(-1.35, 1.35), ylim=(-1.35, 1.35))
+    axes.set(title="RRT-Connect", xlabel="x", ylabel="y")
+    axes.set_xticks([-1, 0, 1])
     axes.set_yticks([-1, 0, 1])
-    axes.legend(loc="upper left")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.45, -0.2), ncols=2)
 
 
 def _of_tree(root: np.ndarray, edges: list) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -98,18 +98,21 @@ def _motion(speed: Axes, torques: Axes, path: tuple, limits: np.ndarray) -> None
     speed.plot(s, most, "--", color=GREY, label="velocity limit")
     speed.plot(s, x, ":", color=RED, label="all of the torque")
     speed.plot(s, half, color=INK, label="half of the torque")
-    speed.set(ylabel="sd², 1/s²", ylim=(0, 1.9 * most.max()), title=whose)
+    speed.set(ylabel=r"$\dot{s}^2$, 1/s²", ylim=(0, 1.9 * most.max()), title=whose)
     speed.legend(loc="upper left")
     u = np.diff(half) * (len(half) - 1) / 2.0
     tau = A[:-1] * u[:, None] + B[:-1] * half[:-1, None] + G[:-1]
     share = np.abs(tau) / (0.5 * limits)
-    colours = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY, GREY)
-    for i, (one, colour) in enumerate(zip(share.T, colours, strict=True)):
-        name = f"joint {i + 1}" if one.max() > 0.99 else None
-        torques.plot(s[:-1], one, color=colour, linewidth=1.5, label=name)
+    at_limit = share.max(axis=0) > 0.99
+    rest = torques.plot(s[:-1], share[:, ~at_limit], color=GREY, linewidth=1.5)
+    rest[0].set_label("other joints")
+    colours = (ORANGE, BLUE, GREEN, RED, PURPLE, SKY, INK)
+    for i, colour in zip(np.flatnonzero(at_limit), colours, strict=False):
+        torques.plot(s[:-1], share[:, i], color=colour, label=f"joint {i + 1}")
     torques.axhline(1.0, color=INK, linewidth=1.0)
-    torques.set(xlabel="s", ylabel="torque / half limit", ylim=(0, 1.45))
-    torques.legend(loc="upper center", ncols=2)
+    torques.set(xlabel="path parameter s", ylabel="|torque| / half the limit")
+    torques.set(ylim=(0, 1.9))
+    torques.legend(loc="upper left")
     torques.grid()
     speed.grid()
 

@@ -64,9 +64,11 @@ def _each(key: str, rows: list[tuple[str, str, Any]]) -> list[Option]:
 
 OPTIONS = [
     *_each("z", [
-        ("ninety", "1.645 stands for 1.96", 1.645), ("two-sigma", "2 stands for 1.96",
-        2.0), ("one-sigma", "1 stands for 1.96", 1.0), ("ninety-nine", "2.576 stands "
-        "for 1.96", 2.576), ("half-z", "0.98 stands for 1.96", 0.98),
+        ("ninety", "your z is 1.645. Use 1.96", 1.645),
+        ("two-sigma", "your z is 2. Use 1.96 instead", 2.0),
+        ("one-sigma", "your z is 1. Use 1.96", 1.0),
+        ("ninety-nine", "your z is 2.576. Use 1.96", 2.576),
+        ("half-z", "your z is 0.98. Use 1.96", 0.98),
     ]),
     *_each("p", [
         ("one-more", "your p is (k + 1) / (n + 2). Use k / n",
@@ -88,7 +90,7 @@ OPTIONS = [
     *_each("moved", [
         (slug, f"your centre is shifted by {says}. Shift it by z^2 / (2 n)", of)
         for slug, says, of in (
-            ("centre-not-moved", "nothing", lambda z, n: 0.0),
+            ("centre-not-moved", "0", lambda z, n: 0.0),
             ("two-n", "z^2 / n", lambda z, n: z**2 / n),
             ("z-for-z2", "z / (2 n)", lambda z, n: z / (2 * n)),
             ("z-for-z2", "z / n", lambda z, n: z / n),
@@ -99,7 +101,8 @@ OPTIONS = [
             ("one-for-z2", "1 / (2 n)", lambda z, n: 1 / (2 * n)))
     ]),
     *_each("front", [
-        ("z-forgotten", "your code omits the factor z before the root", lambda z: 1.0),
+        ("z-forgotten", "your code omits the factor z before the root. Multiply the "
+                        "root by z", lambda z: 1.0),
         ("z-squared", "your code multiplies the root by z^2. Multiply it by z",
          lambda z: z * z),
         ("half-width", "your code multiplies the root by z / 2. Multiply it by z",
@@ -123,7 +126,7 @@ OPTIONS = [
         (slug, f"your second term under the root is {says}. It should be z^2 / (4 "
                f"n^2)", of)
         for slug, says, of in (
-            ("width-without-z2", "nothing", lambda z, n: 0.0),
+            ("width-without-z2", "0", lambda z, n: 0.0),
             ("n-for-n2", "z^2 / (4 n)", lambda z, n: z**2 / (4 * n)),
             ("four-forgotten", "z^2 / n^2", lambda z, n: z**2 / n**2),
             ("two-for-four", "z^2 / (2 n^2)", lambda z, n: z**2 / (2 * n**2)),
@@ -136,9 +139,9 @@ OPTIONS = [
     ]),
     *_each("below", [
         (slug, f"your code divides the centre and the half-width by {says}. "
-               f"Divide them by 1 + z^2 / n", of)
+               f"Divide both by 1 + z^2 / n", of)
         for slug, says, of in (
-            ("not-divided", "nothing", lambda z, n: 1.0),
+            ("not-divided", "1", lambda z, n: 1.0),
             ("n-times", "n + z^2", lambda z, n: n + z**2),
             ("two-n-below", "1 + z^2 / (2 n)", lambda z, n: 1 + z**2 / (2 * n)),
             ("z-below", "1 + z / n", lambda z, n: 1 + z / n),
@@ -149,7 +152,7 @@ OPTIONS = [
         (slug, f"your code divides the half-width by {says}. Divide the centre "
                f"and the half-width by 1 + z^2 / n", of)
         for slug, says, of in (
-            ("width-not-divided", "nothing", lambda z, n: 1.0),
+            ("width-not-divided", "1", lambda z, n: 1.0),
             ("width-by-n", "n", lambda z, n: float(n)),
             ("usual-width", "1 + z^2 / n", lambda z, n: 1 + z**2 / n),
             ("root-below", "the root of 1 + z^2 / n",
@@ -173,23 +176,23 @@ OPTIONS = [
         ("cut", "your code clamps the ends to the range from 0.01 to 0.99. Do not "
                 "clamp them", lambda ends, n:
          np.clip(ends, 0.01, 0.99)),
-        ("cut", "your code clamps the ends to the range from 0 to 1, but the "
-                "ends of a Wilson interval never lie outside it",
+        ("cut", "your code clamps the ends to the range from 0 to 1. Omit this step, "
+                "because the ends of a Wilson interval never lie outside this range",
          lambda ends, n: np.clip(ends, 0, 1)),
         ("high-first", "your upper end comes first. Return the lower end first",
          lambda ends, n: ends[::-1]),
-        ("low-is-zero", "your lower end is always 0, but the interval should be "
-                        "two-sided",
+        ("low-is-zero", "your lower end is always 0. Compute it too, because the "
+                        "interval should be two-sided",
          lambda ends, n: np.array([0.0, ends[1]])),
-        ("high-is-one", "your upper end is always 1, but the interval should be "
-                        "two-sided",
+        ("high-is-one", "your upper end is always 1. Compute it too, because the "
+                        "interval should be two-sided",
          lambda ends, n: np.array([ends[0], 1.0])),
         ("low-alone", "both of your entries are the lower end. Return both ends",
          lambda ends, n: ends[[0, 0]]),
         ("high-alone", "both of your entries are the upper end. Return both ends",
          lambda ends, n: ends[[1, 1]]),
-        ("middle-and-width", "your code returns the centre and the half-width. "
-                             "Return the two ends", lambda ends, n:
+        ("middle-and-width", "your code returns the centre and the half-width. Return "
+                             "the two ends instead", lambda ends, n:
          np.array([ends.mean(), np.diff(ends)[0] / 2])),
     ]),
     *_each("none", [
@@ -203,16 +206,16 @@ OPTIONS = [
          (1.0, 0.0)),
     ]),
     *_each("without", [
-        ("no-success-is-none", "your code treats k = 0 like n = 0, but only n = 0 is "
-                               "a special case",
+        ("no-success-is-none", "your code treats k = 0 like n = 0. Use the formula, "
+                               "because only n = 0 is a special case",
          lambda k, n: k == 0),
-        ("all-is-none", "your code treats k = n like n = 0, but only n = 0 is a "
-                        "special case",
+        ("all-is-none", "your code treats k = n like n = 0. Use the formula, because "
+                        "only n = 0 is a special case",
          lambda k, n: k == n),
-        ("one-is-none", "your code treats n = 1 like n = 0, but only n = 0 is a "
-                        "special case", lambda k, n: n < 2),
-        ("few-are-none", "your code treats n < 5 like n = 0, but only n = 0 is a "
-                         "special case",
+        ("one-is-none", "your code treats n = 1 like n = 0. Use the formula, because "
+                        "only n = 0 is a special case", lambda k, n: n < 2),
+        ("few-are-none", "your code treats n < 5 like n = 0. Use the formula, because "
+                         "only n = 0 is a special case",
          lambda k, n: n < 5),
     ]),
 ]  # fmt: skip
@@ -248,15 +251,12 @@ def _of_z(trials: Sequence[Asked]) -> Finding | None:
     for how, some in kinds:
         zs = np.array(some)[np.isfinite(some)]
         if len(zs) > 5 and np.ptp(zs) < 1e-6 and abs(zs[0] - Z) > 1e-5 and zs[0] > 0:
-            says = (
-                f"your z is {zs[0]:.4g} in every call, {how}. For 95 % of a normal "
-                f"distribution "
-            )
-            return Finding("another-z", f"{says}z is 1.96.")
+            says = f"Your z is {zs[0]:.4g} in every call, {how}. A 95 % interval needs "
+            return Finding("another-z", f"{says}z = 1.96.")
     pairs = [z for z in (_both_z(one) for one in trials) if z]
     if len(pairs) > 5 and all(abs(low - high) < 1e-6 for low, high in pairs):
         least, most = min(pairs)[0], max(pairs)[0]
-        says = f"your z ranges from {least:.4g} to {most:.4g} in Wilson's formula"
+        says = f"Your z ranges from {least:.4g} to {most:.4g} in Wilson's formula"
         if most - least > FAR:
             return Finding("z-changes", f"{says}. Use 1.96 for all n.")
     return None

@@ -137,11 +137,14 @@ def _same_limit(choose: Callable[[Array], float]) -> Any:
 OPTIONS = [
     *(Option(slug, says, {"two_ds": of}, alone="points" in slug)
       for slug, says, of in (
-        ("ds-for-2-ds", "your sd^2 grows by ds u in a step. It should grow by 2 ds u",
+        ("ds-for-2-ds", "your sd^2 grows by ds sdd in a step. It should grow by 2 ds "
+                        "sdd",
          lambda n: 1 / n),
-        ("four-ds", "your sd^2 grows by 4 ds u in a step. It should grow by 2 ds u",
+        ("four-ds", "your sd^2 grows by 4 ds sdd in a step. It should grow by 2 ds "
+                    "sdd",
          lambda n: 4 / n),
-        ("half-ds", "your sd^2 grows by ds u / 2 in a step. It should grow by 2 ds u",
+        ("half-ds", "your sd^2 grows by ds sdd / 2 in a step. It should grow by 2 ds "
+                    "sdd",
          lambda n: 0.5 / n),
         ("points-for-steps", "your ds is 1 / (N + 1). The N + 1 points have N steps "
                              "between them, so ds should be 1 / N",
@@ -160,8 +163,8 @@ OPTIONS = [
     Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2. Its argument "
                          "should be sd",
            {"sd": lambda x: x}),
-    Option("sd-for-sd2", "in the forward pass, your code calls `path_accel_bounds` "
-                         "with sd^2. Its argument should be sd",
+    Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2 in the "
+                         "forward pass. Its argument should be sd",
            {"forward_sd": lambda x: x}),
     Option("sd-squared-twice", "your code calls `path_accel_bounds` with sd^4. Its "
                                "argument should be sd",
@@ -169,38 +172,43 @@ OPTIONS = [
     Option("at-rest", "your code calls `path_accel_bounds` with sd = 0 in both "
                       "passes. Its argument should be the sd at that point",
            {"sd": lambda x: 0.0 * x}, alone=True),
-    Option("at-rest", "in the forward pass, your code calls `path_accel_bounds` with "
-                      "sd = 0. Its argument should be the sd at that point",
+    Option("at-rest", "your code calls `path_accel_bounds` with sd = 0 in the forward "
+                      "pass. Its argument should be the sd at that point",
            {"forward_sd": lambda x: 0.0 * x}, alone=True),
     Option("start-not-at-rest", "your motion starts with the largest sd^2 from which "
-                                "it can stop. Start with 0", {"start": "K"}),
+                                "it can stop. Start with sd^2 = 0 instead",
+           {"start": "K"}),
     Option("end-not-at-rest", "your backward pass starts with sd2_max at the end. "
-                              "Start with 0",
+                              "Start with sd^2 = 0 instead",
            {"last": False}),
     *(Option(slug, says, {"passes": one}) for slug, says, one in (
-        ("no-braking", "your code has no backward pass", "forward"),
-        ("backward-pass-only", "your code has no forward pass", "back"),
-        ("smaller-of-two-passes", "your code computes the two passes independently and "
-                                  "takes the minimum. The forward pass should use the "
-                                  "limits from the backward pass",
+        ("no-braking", "your code has no backward pass. Add a backward pass that "
+                       "begins with sd^2 = 0 at the last point", "forward"),
+        ("backward-pass-only", "your code has no forward pass. Add a forward pass "
+                               "that begins with sd^2 = 0 at the first point", "back"),
+        ("smaller-of-two-passes", "your code computes the two passes independently "
+                                  "and takes the minimum. The forward pass should "
+                                  "stay below the result of the backward pass",
          "smaller"))),
-    *(Option("few-bisections", f"your bisection stops too early, after {n} halvings",
+    *(Option("few-bisections", f"your bisection stops too early, after {n} halvings. "
+                              "Halve the interval more often",
            {"bisections": n}, alone=True)
       for n in (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20)),
-    Option("bobrow", "in the backward pass, your code computes the smallest sdd of a "
-                     "step at its end. Use its first point",
+    Option("bobrow", "your code computes the smallest sdd at the end of each step in "
+                     "the backward pass. Compute it at the first point of the step",
            {"swept": True}),
-    Option("limits-of-the-next-point", "in both passes, your code computes the "
-                                       "bounds on sdd for a step at the end of the "
-                                       "step. Compute them at its first point",
+    Option("limits-of-the-next-point", "your code computes the bounds on sdd at the "
+                                       "end of each step in both passes. Compute the "
+                                       "bounds at the first point of the step",
            {"back_at": 1, "at": 1}),
-    Option("limits-of-the-next-point", "in the backward pass, your code computes the "
-                                       "bounds on sdd for a step at the end of the "
-                                       "step. Compute them at its first point",
+    Option("limits-of-the-next-point", "your code computes the bounds on sdd at the "
+                                       "end of each step in the backward pass. "
+                                       "Compute the bounds at the first point of the "
+                                       "step",
         {"back_at": 1}),
-    Option("limits-of-the-next-point", "in the forward pass, your code computes the "
-                                       "bounds on sdd for a step at the end of the "
-                                       "step. Compute them at its first point",
+    Option("limits-of-the-next-point", "your code computes the bounds on sdd at the "
+                                       "end of each step in the forward pass. Compute "
+                                       "the bounds at the first point of the step",
         {"at": 1}),
     *(Option(slug, says, {"pull": of}, alone=True) for slug, says, of in (
         ("limits-of-the-first-point", "your code uses a, b and c of the first point "
@@ -209,7 +217,8 @@ OPTIONS = [
         ("limits-of-the-last-point", "your code uses a, b and c of the last point in "
                                      "every step. Use the values of each point",
          lambda *rows: tuple(np.broadcast_to(x[-1], x.shape) for x in rows)),
-        ("gravity-forgotten", "your code omits gravity in the torques",
+        ("gravity-forgotten", "your code omits gravity in the torques. Include the "
+                              "term c",
          lambda A, B, G: (A, B, 0 * G)),
         ("gravity-of-the-first-point", "your code uses the gravity of the first "
                                        "point at every point. Use the gravity of "
@@ -217,16 +226,20 @@ OPTIONS = [
          lambda A, B, G: (A, B, np.broadcast_to(G[0], G.shape))),
         ("gravity-sign", "your code reverses the sign of gravity. Use c itself",
          lambda A, B, G: (A, B, -G)),
-        ("coriolis-forgotten", "your code omits b sd^2 in the torques",
+        ("coriolis-forgotten", "your code omits b sd^2 in the torques. Include this "
+                               "term",
          lambda A, B, G: (A, 0 * B, G)),
         ("coriolis-sign", "your code reverses the sign of b. Use b itself",
          lambda A, B, G: (A, -B, G)),
-        ("B-and-G-exchanged", "your code swaps `b` and c", lambda A, B, G: (A, G, B)),
-        ("A-and-B-exchanged", "your code swaps `a` and `b`",
+        ("B-and-G-exchanged", "your code swaps `b` and c. Pass them in the order a, "
+                              "b, c", lambda A, B, G: (A, G, B)),
+        ("A-and-B-exchanged", "your code swaps `a` and `b`. Pass them in the order a, "
+                              "b, c",
          lambda A, B, G: (B, A, G)))),
     *(Option(slug, says, {"most": of}, alone=True) for slug, says, of in (
-        ("no-speed-limit", "your code does not use "
-                           "sd2_max", lambda x: np.full_like(x, 1e3)),
+        ("no-speed-limit", "your code does not use sd2_max. Limit sd^2 to sd2_max in "
+                           "both passes, because the speed of the motors is limited",
+         lambda x: np.full_like(x, 1e3)),
         ("x-max-of-the-next-point", "your code uses sd2_max of the next point. Use "
                                     "sd2_max of the same point",
          lambda x: np.append(x[1:], x[-1])),
@@ -239,7 +252,8 @@ OPTIONS = [
         ("x-max-of-the-first-point", "your code uses sd2_max of the first point at "
                                      "every point. Each point has its own sd2_max",
          lambda x: np.full_like(x, x[0])),
-        ("x-max-squared", "your code squares sd2_max, but sd2_max is already a square",
+        ("x-max-squared", "your code squares sd2_max. Use it unchanged, because "
+                          "sd2_max is already a square",
          lambda x: x**2),
         ("x-max-rooted", "your code takes the square root of sd2_max. Compare sd^2 "
                          "with sd2_max itself", np.sqrt))),
@@ -249,7 +263,8 @@ OPTIONS = [
                               "rest at such a point, so return zeros",
          lambda G, limits: False),
         ("all-points-too-heavy", "your code returns zeros only if gravity exceeds a "
-                                 "torque limit at every point, but one point is enough",
+                                 "torque limit at every point. One such point is "
+                                 "enough, so test whether there is any",
          lambda G, limits: np.all(np.abs(G) > limits)),
         ("first-point-alone", "your code compares gravity with the torque limits "
                               "only at the first point. Compare it at every point",
@@ -258,17 +273,18 @@ OPTIONS = [
                        "the two ends. Compare it at every point",
          lambda G, limits: np.any(np.abs(G[[0, -1]]) > limits)),
         ("gravity-with-sign", "your code compares gravity with the torque limits "
-                              "without taking its absolute value, but the limits "
-                              "also apply to negative torques",
+                              "without taking its absolute value. Take it, because "
+                              "the limits also apply to negative torques",
          lambda G, limits: np.any(limits < G)))),
-    *(Option(f"without-{what}", f"your backward pass does not test whether {says}",
+    *(Option(f"without-{what}", f"your backward pass does not test whether {says}. Add "
+                              "this test",
              {"without": (what,)}, alone=True) for what, says in (
         ("allowed", "any sdd is allowed at this speed (low <= high)"),
         ("after", "the motion can slow down to the maximum of the next point"),
         ("turning", "sd^2 stays above 0 with the largest sdd"))),
-    Option("most-of-the-point-before", "in the forward pass, your code limits sd^2 at "
-                                       "i + 1 by the maximum at i. Use the maximum at "
-                                       "i + 1", {"kept": 0}),
+    Option("most-of-the-point-before", "your code limits sd^2 at i + 1 by the maximum "
+                                       "at i in the forward pass. Use the maximum at "
+                                       "i + 1 instead", {"kept": 0}),
     *(Option(slug, f"your code uses the {word} torque limit for every joint. Each "
                    "joint has its own limit",
              {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
@@ -278,20 +294,21 @@ OPTIONS = [
                               "whole limit",
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a, b, g, limits / 2, sd)}),
-    Option("first-joint-only", "your code uses only the first joint, but every joint "
-                               "limits sdd",
+    Option("first-joint-only", "your code uses only the first joint. Use all joints, "
+                               "because every joint limits sdd",
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a[:1], b[:1], g[:1], limits[:1], sd)}),
     *(Option(slug, says, {"out": of}) for slug, says, of in (
-        ("root", "your code returns sd. Return sd^2", np.sqrt),
+        ("root", "your code returns sd. Return sd^2 instead", np.sqrt),
         ("squared", "your code returns sd^4. Return sd^2", np.square),
         ("end-to-start", "your motion runs from the end to the start. Reverse it",
          lambda x: x[::-1]),
         ("stopped-at-the-end", "your code sets the last entry to 0 only after the "
                                "two passes. Start the backward pass with 0",
          lambda x: np.append(x[:-1], 0.0)),
-        ("mirrored", "your code takes the minimum of the motion and its mirror image, "
-                     "but the limits are different in the other direction",
+        ("mirrored", "your code takes the minimum of the motion and its mirror image. "
+                     "Compute both passes instead, because the limits are different "
+                     "in the other direction",
          lambda x: np.minimum(x, x[::-1])))),
 ]  # fmt: skip
 
@@ -321,7 +338,8 @@ def _broken(one: Asked) -> tuple[str, str] | None:
     for end, i in (("begins", 0), ("ends", n)):
         if abs(x[i]) > NEAR:
             return f"{end}-in-motion", (
-                f"your motion {end} with sd^2 = {x[i]:.3f}; it should be 0 there."
+                f"your motion {end} with sd^2 = {x[i]:.3f}. It should be 0 at "
+                "this point."
             )
     if (x < -NEAR).any():
         return "below-zero", f"sd^2 is below 0 at point {int(np.argmax(x < -NEAR))}."

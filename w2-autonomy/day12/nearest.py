@@ -107,72 +107,79 @@ def _others(tree, q, far):
 
 @row.wrongs(hidden={"itself-left-out": "the lab asks for no node's own place"})
 def _(tree, q):
-    """farthest: your code returns the farthest node. Return the nearest one
+    """farthest: your code returns the farthest node. Return the nearest node instead
     newest: your code always returns the last node of the tree. Return the node nearest
-      to q
+      to q instead
     one-coordinate: your code compares only the first coordinate. Use the distance in
       all coordinates
     one-coordinate 2: your code compares only the last coordinate. Use the distance in
       all coordinates
-    signed-sum: your code adds the differences with their signs, so they cancel. Add
-      their squares
+    signed-sum: your code adds the differences with their signs, so they cancel. Add the
+      squares of the differences instead
     signed-sum 2: your code adds the differences before it squares them, so they cancel.
-      Square them first
+      Square the differences first
     last-of-equals: if several nodes are equally near, your code returns the last one.
       Return the first one, as np.argmin does
-    largest-coordinate: your code compares the largest difference in one coordinate. Use
-      the Euclidean distance
-    sum-of-sizes: your code compares the sum of the absolute differences. Use the
-      Euclidean distance
-    wrapped: your code wraps the differences to [-pi, pi], but the joints have limits,
-      so q and q + 2 pi are different configurations
-    wrapped 2: your code takes the differences modulo 2 pi, but the joints have limits,
-      so q and q + 2 pi are different configurations
-    weighted: your coordinates have different weights. Use the same weight for all
-    weighted 2: your coordinates have different weights. Use the same weight for all
+    largest-coordinate: your code compares the nodes by their largest coordinate
+      difference. Use the Euclidean distance instead
+    sum-of-sizes: your code compares the nodes by the sum of the absolute differences.
+      Use the Euclidean distance instead
+    wrapped: your code wraps the differences to [-pi, pi]. Omit this step, because the
+      joints have limits, so q and q + 2 pi are different configurations
+    wrapped 2: your code takes the differences modulo 2 pi. Omit this step, because the
+      joints have limits, so q and q + 2 pi are different configurations
+    weighted: your code gives the coordinates different weights. Use the same weight for
+      all
+    weighted 2: your code gives the coordinates different weights. Use the same weight
+      for all
     from-the-origin: your code does not use q, so it returns the node nearest to the
-      origin
-    q-added: your code adds q to the nodes. Subtract it
-    most-alike: your code compares the dot products with q, but a dot product also grows
-      with the norm of the node
-    place-of-the-distance: your code returns the rank of the root in the order of the
-      distances. Return the index of the smallest distance
+      origin. Compute the distances from q
+    q-added: your code adds q to the nodes. Subtract q from the nodes instead
+    most-alike: your code compares the dot products with q. Compare the distances
+      instead, because a dot product also grows with the norm of the node
+    place-of-the-distance: your code returns the position of the root in the order of
+      the distances. Return the index of the smallest distance instead
     counted-from-the-end: your index counts from the end of the tree. Count from the
       root
-    smallest-coordinate: your code compares the smallest difference in one coordinate.
-      Use the Euclidean distance
-    two-coordinates: your code compares only the first two coordinates, but a node can
-      have any number of them
+    smallest-coordinate: your code compares the nodes by their smallest coordinate
+      difference. Use the Euclidean distance instead
+    two-coordinates: your code compares only the first two coordinates. Use the distance
+      in all coordinates
     first-left-out: your code does not compare the first coordinate. Use the distance in
       all coordinates
     cubed: your code cubes the differences, so they keep their signs and cancel. Square
-      them
-    length-for-place: your code compares the norms of the nodes with the norm of q. Two
-      points with the same norm can be far apart
-    angle: your code selects the node at the smallest angle to q. Use the distance
-    second-nearest: your code returns the second nearest node. Return the nearest one
-    least-not-kept: your code compares each row with the distance of the root. Compare
-      it with the smallest distance so far
-    row-before: your code compares each row only with the previous row. Compare it with
-      the smallest distance so far
+      the differences instead
+    length-for-place: your code compares the norms of the nodes with the norm of q.
+      Compare the distances instead, because two points with the same norm can be far
+      apart
+    angle: your code selects the node at the smallest angle to q. Select the node at the
+      smallest distance instead
+    second-nearest: your code returns the second nearest node. Return the nearest node
+      instead
+    least-not-kept: your code compares each distance only with the distance of the root.
+      Compare it with the smallest distance so far
+    row-before: your code compares each distance only with the distance of the previous
+      row. Compare it with the smallest distance so far
     first-that-is-nearer: your loop stops at the first row that is nearer than the root.
       Test all rows
-    rounded: your code rounds the distances before it compares them, so two different
-      distances can be equal
-    rounded 2: your code rounds the distances before it compares them, so two different
-      distances can be equal
-    root-left-out: your code skips the root, row 0, but the root can be the nearest node
+    rounded: your code rounds the distances before it compares them. Omit the rounding,
+      because two different distances can become equal
+    rounded 2: your code rounds the distances before it compares them. Omit the
+      rounding, because two different distances can become equal
+    root-left-out: your code skips the root, row 0. Include it, because the root can be
+      the nearest node
     root-left-out 2: your code skips the root, row 0, and counts the rows from row 1.
       Include the root, and count from row 0
-    last-left-out: your code skips the last row, but the last node can be the nearest
+    last-left-out: your code skips the last row. Include it, because the last node can
+      be the nearest
     over-all-numbers: your code searches for the minimum over all entries of the tree.
       Each row has one distance, so sum along axis 1
     sum-of-columns: your code sums the squares along axis 0. Sum along axis 1, because
       each row is a node
-    itself-left-out: your code skips a node that equals q, but such a node has distance
-      0, so it is the nearest one
-    largest-with-sign: your code compares the largest signed difference. Use the
-      Euclidean distance
+    itself-left-out: your code skips a node that equals q. Include such a node, because
+      its distance is 0
+    largest-with-sign: your code compares the nodes by their largest signed difference.
+      Use the Euclidean distance instead
     """
     away = tree - q
     far = np.sum(away**2, axis=1)

@@ -6,7 +6,7 @@ from labkit.judge import Row, Vector
 from robo47.planning import path_accel_bounds
 
 row = Row(
-    Vector((2,), "1/s^2", names=("the least", "the greatest")),
+    Vector((2,), "1/s^2", names=("the lower bound", "the upper bound")),
     at_edge=lambda a, b, c, limits, sd: bool(np.all(limits > 0)),
 )
 
@@ -171,29 +171,35 @@ def _of_holding(rest, pull, c, limits, moves, free):
 def _(a, b, c, limits, sd):
     """not-sorted: if `a` is negative, your code swaps the lower and the upper bound of
       that joint. Sort the two quotients
-    speed-forgotten: your code omits the term b sd^2
-    speed-sign: your code adds b sd^2 to the limits. Subtract it
-    gravity-forgotten: your code omits the term c
-    gravity-sign: your code adds c to the limits. Subtract it
-    rest-added: your code adds b sd^2 + c to the limits. Subtract it
-    rest-not-divided: your code does not divide b sd^2 + c by `a`
-    one-sided: your b sd^2 + c has the wrong sign in the lower bound, but the bounds are
-      not symmetric about 0
-    size-of-rest: your code reduces both limits by |b sd^2 + c|. This torque should
-      reduce one limit and extend the other
+    speed-forgotten: your code omits the term b sd^2. Subtract it from both torque
+      limits
+    speed-sign: your code adds b sd^2 to the limits. Subtract b sd^2 from the limits
+      instead
+    gravity-forgotten: your code omits the term c. Subtract it from both torque limits
+    gravity-sign: your code adds c to the limits. Subtract c from the limits instead
+    rest-added: your code adds b sd^2 + c to the limits. Subtract b sd^2 + c from the
+      limits instead
+    rest-not-divided: your code divides the torque limits by `a`, but not b sd^2 + c.
+      Divide both by `a`
+    one-sided: your term b sd^2 + c has the wrong sign in the lower bound. Subtract this
+      term from both torque limits
+    size-of-rest: your code reduces both limits by |b sd^2 + c|. Subtract b sd^2 + c
+      with its sign from both limits instead
     widest: your code takes the union of the joints' intervals. Take the intersection
+      instead
     least-of-both: both of your bounds are the minimum of their quotients. The lower
       bound should be the maximum of the joints' lower bounds
-    first-joint-only: your code uses only the first joint, but every joint limits sdd
-    first-joint-only 2: your code uses only the first joint that moves, but every joint
-      limits sdd
+    first-joint-only: your code uses only the first joint. Use all joints, because every
+      joint limits sdd
+    first-joint-only 2: your code uses only the first joint that moves. Use all joints,
+      because every joint limits sdd
     last-joint-only: your code uses only the last joint. Does your loop overwrite the
       earlier bounds?
     half-the-limit: your code uses only half of each torque limit. Use the whole limit
-    not-divided: your bounds are torques. Divide them by `a`
-    times-a: your code multiplies the torques by `a`. Divide them by `a`
-    one-limit: your code allows torques from 0 to the limit, but the torques may range
-      from -limit to limit
+    not-divided: your bounds are torques. Divide the torques by `a`
+    times-a: your code multiplies the torques by `a`. Divide the torques by `a` instead
+    one-limit: your code allows torques from 0 to the limit. Allow torques from -limit
+      to limit
     greatest-first: your upper bound comes first. Return the lower bound first
     greatest-first 2: your upper bound comes first unless a joint with a = 0 exceeds its
       limit. Return the lower bound first
@@ -201,22 +207,22 @@ def _(a, b, c, limits, sd):
       above the upper bound
     none-sorted 2: if the joints allow no common sdd, your code sorts the bounds. Leave
       the lower bound above the upper bound
-    none-is-zero: if no sdd is allowed, your code returns (0, 0), but (0, 0) allows sdd
-      = 0
+    none-is-zero: if no sdd is allowed, your code returns (0, 0), which allows sdd = 0.
+      Leave the lower bound above the upper bound
     none-is-zero 2: if a joint with a = 0 exceeds its limit, your code returns (0, 0),
-      which allows sdd = 0. Return (inf, -inf)
+      which allows sdd = 0. Return (inf, -inf) instead
     none-is-one: if no sdd is allowed, your code reduces the lower bound to the upper
-      bound. Leave it above the upper bound
+      bound. Leave the lower bound above the upper bound
     zero-stops-all: your code returns an empty range for a joint with a = 0 within its
-      torque limit. Such a joint does not limit sdd
+      torque limit. Skip such a joint, because it does not limit sdd
     zero-row-ignored: your code ignores a joint with a = 0 that exceeds its torque
       limit. In this case no sdd is allowed, so return (inf, -inf)
     gravity-not-divided: your code subtracts c after the division by `a`. The term c is
       a torque, so subtract it first
     speed-not-divided: your code subtracts b sd^2 after the division by `a`. This term
       is a torque, so subtract it first
-    negative-left-out: your code ignores joints with a negative `a`, but every joint
-      that moves limits sdd
+    negative-left-out: your code ignores joints with a negative `a`. Include them,
+      because every joint that moves limits sdd
     largest-limit: your code uses the largest torque limit for every joint. Each joint
       has its own limit
     smallest-limit: your code uses the smallest torque limit for every joint. Each joint
@@ -231,14 +237,16 @@ def _(a, b, c, limits, sd):
       bounds and the minimum of the upper bounds
     from-zero: both of your bounds start at 0. Start the lower bound at -inf and the
       upper bound at inf
-    last-joint-only 2: each joint in your code replaces the bounds of the joints before
-      it. Keep the largest lower and the smallest upper bound
+    last-joint-only 2: your code replaces the bounds at each joint. Keep the largest
+      lower and the smallest upper bound of all joints
     never-narrowed: your bounds stay infinite, because min and max are swapped. Keep the
       largest lower and the smallest upper bound
-    zero-kept-in: your range always includes 0, but sdd = 0 need not be allowed
-    six-joints: your code uses only the first six joints, but the arm can have any
-      number of joints
-    first-left-out: your code skips the first joint, but every joint limits sdd
+    zero-kept-in: your range always includes 0. Return the bounds themselves, because
+      sdd = 0 need not be allowed
+    six-joints: your code uses only the first six joints. Use all joints, because the
+      arm can have any number of joints
+    first-left-out: your code skips the first joint. Use all joints, because every joint
+      limits sdd
     none-is-zero 3: if the joints allow no common sdd, your code returns (0, 0), which
       allows sdd = 0. Leave the lower bound above the upper bound
     none-is-infinite: if the joints allow no common sdd, your code returns (inf, -inf).
@@ -247,23 +255,24 @@ def _(a, b, c, limits, sd):
     no-mover-is-none: if every `a` is 0 and every torque is within its limit, your code
       returns (inf, -inf). Any sdd is allowed, so return (-inf, inf)
     held-by-gravity-alone: for a joint with a = 0, your code compares only c with the
-      limit. Compare b sd^2 + c
+      limit. Compare b sd^2 + c with the limit instead
     held-by-speed-alone: for a joint with a = 0, your code compares only b sd^2 with the
-      limit. Compare b sd^2 + c
+      limit. Compare b sd^2 + c with the limit instead
     held-with-sign: for a joint with a = 0, your code compares the torque without its
-      absolute value. The limit also applies to negative torques
+      absolute value. Take the absolute value, because the limit also applies to
+      negative torques
     all-have-to-hold: your code compares b sd^2 + c with the limit for joints that move
       too. This test is only for joints with a = 0
     any-that-holds: if several joints have a = 0, your code accepts the speed if at
-      least one of them is within its limit. All of them must be
-    small-is-zero: your code treats a small `a` as 0, but a joint with a small `a` still
-      limits sdd
-    small-is-zero 2: your code treats a small `a` as 0, but a joint with a small `a`
-      still limits sdd
-    small-is-zero 3: your code treats a small `a` as 0, but a joint with a small `a`
-      still limits sdd
+      least one of them is within its limit. All of them must be within their limits
+    small-is-zero: your code treats a small `a` as 0. Compare `a` with 0 exactly,
+      because a joint with a small `a` still limits sdd
+    small-is-zero 2: your code treats a small `a` as 0. Compare `a` with 0 exactly,
+      because a joint with a small `a` still limits sdd
+    small-is-zero 3: your code treats a small `a` as 0. Compare `a` with 0 exactly,
+      because a joint with a small `a` still limits sdd
     held-below-its-limit: your code rejects a joint with a = 0 whose torque equals its
-      limit, but equality is allowed
+      limit. Accept it, because equality is allowed
     """
     pull = b * sd**2
     rest = pull + c
@@ -353,8 +362,8 @@ def _(a, b, c, limits, sd):
 
 @row.wrong
 def zero_divides(a, b, c, limits, sd):
-    """your code divides by 0 for a joint with a = 0. Such a joint does not limit sdd
-    while its torque is within the limit"""
+    """your code divides by 0 for a joint with a = 0. Skip such a joint if its torque is
+    within its limit, because it does not limit sdd"""
     with np.errstate(all="ignore"):
         ends = np.sort((np.array([-limits, limits]) - b * sd**2 - c) / a, axis=0)
     return np.array([ends[0].max(), ends[1].min()])

@@ -5,7 +5,7 @@ import numpy as np
 from labkit.judge import Matrix, Row, rounded
 from robo47.planning import path_dynamics
 
-row = Row(Matrix((3, None), "N m", rows=("a", "b", "g")))
+row = Row(Matrix((3, None), "N m", rows=("a", "b", "c")))
 
 
 @row.inputs
@@ -49,45 +49,50 @@ def _(rng):
 
 @row.wrongs
 def _(M, dq_ds, d2q_ds2, coriolis, gravity):
-    """ddq-forgotten: your code omits M d2q_ds2 in b, but on a curved path the joints
-      accelerate even if sd is constant
-    bias-for-coriolis: your code also adds gravity to b, but gravity does not depend on
-      sd, so it belongs only in g
-    gravity-off-coriolis: your code subtracts gravity in `b`, but `coriolis` does not
-      contain gravity
-    m-forgotten: your code omits the mass matrix in `a`. Multiply dq_ds by it
-    m-forgotten 2: your code omits the mass matrix in `b`. Multiply d2q_ds2 by it
+    """ddq-forgotten: your code omits M d2q_ds2 in b. Add this term, because on a curved
+      path the joints accelerate even if sd is constant
+    bias-for-coriolis: your code also adds gravity to b. Add it only to c, because
+      gravity does not depend on sd
+    gravity-off-coriolis: your code subtracts gravity in `b`. Use `coriolis` unchanged,
+      because it does not contain gravity
+    m-forgotten: your code omits the mass matrix in `a`. Multiply dq_ds by the mass
+      matrix
+    m-forgotten 2: your code omits the mass matrix in `b`. Multiply d2q_ds2 by the mass
+      matrix
     m-forgotten 3: your code omits the mass matrix in both `a` and `b`. Multiply dq_ds
-      and d2q_ds2 by it
-    diagonal-only: your code uses only the diagonal of the mass matrix, but the joints
-      are coupled
-    diagonal-only 2: your code uses only the diagonal of the mass matrix in `a`, but the
-      joints are coupled
-    diagonal-only 3: your code uses only the diagonal of the mass matrix in `b`, but the
-      joints are coupled
-    a-and-b-exchanged: your `a` and `b` are swapped. sdd is multiplied by dq_ds, and
-      sd^2 by d2q_ds2
-    g-first: your first row is g. The order should be a, b, g
-    ddq-in-a: your code swaps M dq_ds and M d2q_ds2, but qdd is dq_ds sdd + d2q_ds2 sd^2
+      and d2q_ds2 by the mass matrix
+    diagonal-only: your code uses only the diagonal of the mass matrix. Use the whole
+      matrix, because the joints are coupled
+    diagonal-only 2: your code uses only the diagonal of the mass matrix in `a`. Use the
+      whole matrix, because the joints are coupled
+    diagonal-only 3: your code uses only the diagonal of the mass matrix in `b`. Use the
+      whole matrix, because the joints are coupled
+    a-and-b-exchanged: your code swaps `a` and `b`. The factor dq_ds belongs to sdd, and
+      d2q_ds2 belongs to sd^2
+    g-first: your first row is c. The order should be a, b, c
+    ddq-in-a: your code swaps M dq_ds and M d2q_ds2. The factor of sdd is M dq_ds,
+      because qdd = dq_ds sdd + d2q_ds2 sd^2
     m-dq-twice: your b contains M dq_ds. It should contain M d2q_ds2
-    both-in-a: your code adds M d2q_ds2 to `a`, but this term is multiplied by sd^2, so
-      it belongs in `b`
-    gravity-sign: your g is -gravity, but the torque that holds the arm is +gravity
-    gravity-forgotten: your code omits gravity, so the third row is 0
-    coriolis-times-dq: your code multiplies the Coriolis torque by dq_ds, but `coriolis`
-      already computes it for qd = dq_ds
+    both-in-a: your code adds M d2q_ds2 to `a`. Add this term to `b`, because it is
+      multiplied by sd^2
+    gravity-sign: your c is -gravity. It should be +gravity, the torque that holds the
+      arm
+    gravity-forgotten: your code omits gravity, so the third row is 0. Return gravity as
+      the third row, c
+    coriolis-times-dq: your code multiplies the Coriolis torque by dq_ds. Use `coriolis`
+      unchanged, because it is already the torque at qd = dq_ds
     dq-squared: your b contains dq_ds^2. It should contain d2q_ds2
     solved: your code solves with M. Multiply by M, because M maps accelerations to
       torques
-    coriolis-in-g: your code adds the Coriolis torque to g, but this torque is
-      multiplied by sd^2, so it belongs in b
-    coriolis-in-a: your code adds the Coriolis torque to `a`, but this torque is
-      multiplied by sd^2, so it belongs in b
-    rows-summed: your code sums each row of M and then multiplies it by one joint's
-      rate. Use the matrix product
-    trace: your code uses the trace of M instead of M
+    coriolis-in-g: your code adds the Coriolis torque to c. Add it to b, because it is
+      multiplied by sd^2
+    coriolis-in-a: your code adds the Coriolis torque to `a`. Add it to b, because it is
+      multiplied by sd^2
+    rows-summed: your code sums each row of M and multiplies the sum by one joint's
+      rate. Use the matrix product instead
+    trace: your code multiplies by the trace of M. Use the matrix product with M instead
     first-row: your code multiplies the first row of M entry by entry. Use the matrix
-      product
+      product with M instead
     """
     right = path_dynamics(M, dq_ds, d2q_ds2, coriolis, gravity)
     a, b, g = right

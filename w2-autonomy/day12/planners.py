@@ -163,32 +163,32 @@ def one_tree(
 
 OPTIONS = [
     Option("swap-when-it-grew", "your code swaps the trees only after a sample that "
-                                "made a tree grow. Swap them after every sample",
+                                "made a tree grow. Swap the trees after every sample",
            {"turn": "grew"}),
     Option("swap-when-it-failed", "your code swaps the trees only after a blocked "
-                                  "sample. Swap them after every sample",
+                                  "sample. Swap the trees after every sample",
            {"turn": "failed"}),
-    Option("trees-not-swapped", "in your code, all samples extend the start's tree. "
-                                "Samples 1, 3, 5 and so on should extend the goal's "
-                                "tree", {"turn": "never"}),
-    Option("goal-first", "in your code, sample 0 extends the goal's tree. It should "
-                         "extend the start's tree", {"turn": "goal"}),
-    Option("halves", "in your code, the first half of the samples extends the start's "
-                     "tree, and the second half extends the goal's tree. Alternate "
-                     "between the trees",
+    Option("trees-not-swapped", "your code extends the start's tree with every "
+                                "sample. Samples 1, 3, 5 and so on should extend the "
+                                "goal's tree", {"turn": "never"}),
+    Option("goal-first", "your code extends the goal's tree with sample 0. Sample 0 "
+                         "should extend the start's tree", {"turn": "goal"}),
+    Option("halves", "your code extends the start's tree with the first half of the "
+                     "samples and the goal's tree with the second half. Alternate "
+                     "after every sample",
            {"turn": lambda k, used, nodes: int(2 * k >= len(used))}),
-    Option("two-in-turn", "in your code, samples 0 and 1 extend the start's tree, and "
-                          "samples 2 and 3 extend the goal's tree. Alternate after "
+    Option("two-in-turn", "your code extends the start's tree with samples 0 and 1 "
+                          "and the goal's tree with samples 2 and 3. Alternate after "
                           "every sample",
            {"turn": lambda k, used, nodes: k // 2 % 2}),
-    Option("one-of-three", "in your code, only every third sample extends the goal's "
-                           "tree. Alternate after every sample",
+    Option("one-of-three", "your code extends the goal's tree only with every third "
+                           "sample. Alternate after every sample",
            {"turn": lambda k, used, nodes: int(k % 3 == 2)}),
-    Option("smaller-tree", "in your code, each sample extends the smaller tree. "
+    Option("smaller-tree", "your code extends the smaller tree with each sample. "
                            "Alternate after every sample",
            {"turn": lambda k, used, nodes: int(len(nodes[1]) < len(nodes[0]))}),
-    Option("blocked-tries-the-other", "in your code, the other tree grows towards a "
-                                      "blocked sample. Continue with the next sample",
+    Option("blocked-tries-the-other", "your other tree grows towards a blocked "
+                                      "sample. Continue with the next sample",
            {"blocked": "other"}),
     *(Option("few-samples", f"your code uses only the first {n} samples. Use all "
                             "samples",
@@ -216,34 +216,33 @@ OPTIONS = [
     Option("greedy-samples", "your code adds several edges towards the sample. Add "
                              "only one edge",
            {"mine": "connect"}),
-    Option("parent-is-the-newest", "in your code, the parent of each node is the "
-                                   "previous node. Use the index that `extend` "
-                                   "returns",
+    Option("parent-is-the-newest", "your code uses the previous node as the parent of "
+                                   "each node. Use the index that `extend` returns",
            {"parent": "newest"}),
-    Option("parent-is-the-root", "in your code, the parent of every node is the "
-                                 "root. Use the index that `extend` returns",
+    Option("parent-is-the-root", "your code uses the root as the parent of each node. "
+                                 "Use the index that `extend` returns",
 {"parent": "root"}),
-    Option("grows-from-the-newest", "in your code, a tree grows only from its newest "
-                                    "node. Pass all nodes to `extend`, which finds the "
-                                    "nearest",
+    Option("grows-from-the-newest", "your trees grow only from their newest nodes. "
+                                    "Pass all nodes to `extend`, which finds the "
+                                    "nearest node",
            {"grows": "newest"}),
     Option("not-checked", "your code adds nodes even if their edge is not free. Use "
                           "the third result of `extend`",
            {"free": True}),
-    Option("blocked-goes-on", "in your code, the other tree still grows towards the "
-                              "newest node after a blocked sample. Continue with the "
-                              "next sample",
+    Option("blocked-goes-on", "after a blocked sample, your other tree still grows "
+                              "towards the newest node. Continue with the next sample",
            {"blocked": "on"}),
     Option("blocked-ends", "your code stops at the first blocked sample. Continue with "
                            "the next sample", {"blocked": "stop"}),
-    Option("near-enough", "your search ends when the trees are within one step of each "
-                          "other, but the other tree must reach the new node",
+    Option("near-enough", "your search ends when the trees are within one step of "
+                          "each other. End it only when the other tree reaches the "
+                          "new node",
            {"meets": "near"}),
     *(Option("stride", f"your edges have a length of {x:g} steps. The length should "
                        "be one step",
            {"stride": x, "far": x})
       for x in (0.5, 2.0)),
-    *(Option("stride-of-the-other", f"your edges of the other tree have a length of "
+    *(Option("stride-of-the-other", f"the edges of your other tree have a length of "
                                     f"{x:g} steps. The length should be one step",
              {"far": x}) for x in (0.5, 2.0)),
     *(Option("stride-of-the-first", f"your edges towards samples have a length of "
@@ -252,8 +251,8 @@ OPTIONS = [
     Option("every-other-sample", "your code uses only every second sample. Use all "
                                  "samples",
            {"used": lambda some: some[::2]}),
-    Option("sample-twice", "in your code, each sample extends both trees. It should "
-                           "extend one tree",
+    Option("sample-twice", "your code extends both trees with each sample. Extend "
+                           "only one tree with each sample",
            {"used": lambda some: np.repeat(some, 2, axis=0)}),
     Option("samples-backwards", "your code uses the samples in reverse order. Start "
                                 "with sample 0",
@@ -265,14 +264,16 @@ OPTIONS = [
                                    "end one sample too early?",
            {"used": lambda some: some[:-1]}),
     Option("not-turned-round", "the start's branch of your path runs from the newest "
-                               "node to the root. Reverse it",
+                               "node to the root. Reverse this branch",
            {"joined": lambda a, b: a + b[1:]}),
-    Option("goal-branch-turned", "your code reverses the goal's branch, but it already "
-                                 "runs from the meeting point to the goal",
+    Option("goal-branch-turned", "your code reverses the goal's branch. Keep its "
+                                 "order, because it already runs from the meeting "
+                                 "point to the goal",
            {"joined": lambda a, b: a[::-1] + b[::-1]}),
-    Option("goal-branch-turned", "your code reverses the goal's branch and omits its "
-                                 "first node, but the branch already runs from the "
-                                 "meeting point to the goal",
+    Option("goal-branch-turned", "your code reverses the goal's branch and then omits "
+                                 "its first node. Keep the order of this branch, "
+                                 "which already runs from the meeting point to the "
+                                 "goal",
            {"joined": lambda a, b: a[::-1] + b[::-1][1:]}),
     Option("goal-to-start", "your path runs from the goal to the start. Reverse it",
            {"joined": lambda a, b: b[::-1] + a[1:]}),
@@ -291,7 +292,8 @@ OPTIONS = [
     Option("both-roots-lost", "your path contains neither the start nor the goal. "
                               "Include both",
            {"joined": lambda a, b: a[::-1][1:] + b[1:-1]}),
-    Option("goal-lost", "your path does not contain the goal. It should end there",
+    Option("goal-lost", "your path does not contain the goal. It should end at the "
+                        "goal",
            {"joined": lambda a, b: a[::-1] + b[1:-1]}),
     Option("none-is-the-start", "if there is no path, your code returns the start. "
                                 "Return an array without rows",

@@ -110,9 +110,9 @@ def _(start, goal, world, samples, step, path):
 @row.wrongs
 def _(start, goal, world, samples, step):
     """swap-when-it-grew: your code swaps the trees only after a sample that made a tree
-      grow. Swap them after every sample
-    swap-when-it-failed: your code swaps the trees only after a blocked sample. Swap
-      them after every sample
+      grow. Swap the trees after every sample
+    swap-when-it-failed: your code swaps the trees only after a blocked sample. Swap the
+      trees after every sample
     trees-not-swapped: your code extends the start's tree with every sample. Samples 1,
       3, 5 and so on should extend the goal's tree
     goal-first: your code extends the goal's tree with sample 0. Sample 0 should extend
@@ -122,18 +122,18 @@ def _(start, goal, world, samples, step):
     connect-to-the-sample: your other tree grows towards the sample. It should grow
       towards the new node
     greedy-samples: your code adds several edges towards the sample. Add only one edge
-    one-tree: your code grows only the start's tree and connects each new node to the
-      goal. Grow two trees
+    one-tree: your code grows only the start's tree and tests the edge from each new
+      node to the goal. Grow two trees
     connect-in-one-jump: your code connects the other tree by a single edge of any
       length. Add edges of one step each
     parent-is-the-newest: your path contains every node of both trees. The parent of a
       node is the node from which it grew, so use the index that `extend` returns
     not-turned-round: the start's branch of your path runs from the newest node to the
-      root. Reverse it
+      root. Reverse this branch
     goal-to-start: your path runs from the goal to the start. Reverse it
     half-the-path: your code returns only the start's branch. Append the goal's branch
     half-the-path 2: your code returns only the goal's branch. Put the start's branch
-      before it
+      before this branch
     not-checked: your code adds nodes even if their edge is not free. Use the third
       result of `extend`
     meeting-point-twice: your path repeats the node at which the trees meet. Include it

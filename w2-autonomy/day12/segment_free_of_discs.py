@@ -211,94 +211,101 @@ def _others(a, b, discs, part, away):
     }
 )
 def _(a, b, discs):
-    """line-for-segment: your code does not clamp the parameter of the nearest point to
-      [0, 1], so a disc beyond an end of the edge blocks it
-    only-one-end-cut: your code clamps the parameter at 1 but not at 0. Before the
-      start, the nearest point should be the start
-    only-one-end-cut 2: your code clamps the parameter at 0 but not at 1. Beyond the
-      end, the nearest point should be the end
-    ends-only: your code tests only the two ends, but the edge can cross a disc between
-      them
+    """line-for-segment: your code does not clamp the parameter of the nearest point.
+      Clamp it to [0, 1], because otherwise a disc beyond an end of the edge blocks the
+      edge
+    only-one-end-cut: your code clamps the parameter of the nearest point only at 1.
+      Clamp it at 0 as well, because the edge begins at `a`
+    only-one-end-cut 2: your code clamps the parameter of the nearest point only at 0.
+      Clamp it at 1 as well, because the edge ends at `b`
+    ends-only: your code tests only the two ends. Test the whole edge, because it can
+      cross a disc between them
     new-end-only: your code tests only the end `b`. Test the whole edge
     start-only: your code tests only the start `a`. Test the whole edge
     middle-only: your code tests only the midpoint. Test the whole edge
-    points-only: your code tests only some points of the edge, but a small disc can lie
-      between two of them
-    points-only 2: your code tests only some points of the edge, but a small disc can
-      lie between two of them
-    points-only 3: your code tests only some points of the edge, but a small disc can
-      lie between two of them
-    points-only 4: your code tests only some points of the edge, but a small disc can
-      lie between two of them
+    points-only: your code tests only some points of the edge. Use the point of the edge
+      nearest to the centre, because a small disc can lie between two tested points
+    points-only 2: your code tests only some points of the edge. Use the point of the
+      edge nearest to the centre, because a small disc can lie between two tested points
+    points-only 3: your code tests only some points of the edge. Use the point of the
+      edge nearest to the centre, because a small disc can lie between two tested points
+    points-only 4: your code tests only some points of the edge. Use the point of the
+      edge nearest to the centre, because a small disc can lie between two tested points
     points-only 5: your code misses discs that cover only a small part of the edge.
-      Either it tests only some points, or its nearest point is not exact
+      Compute the nearest point of the edge exactly
     points-only 6: your code misses discs that cover only a small part of the edge.
-      Either it tests only some points, or its nearest point is not exact
+      Compute the nearest point of the edge exactly
     inside-is-free: your code reports an edge inside a disc as free, because the edge
-      does not cross the circle. The inside of a disc is blocked
+      does not cross the circle. It should be blocked, because the inside of a disc is
+      blocked too
     inside-is-free 2: your code reports an edge or a point inside a disc as free,
-      because neither crosses the circle. The inside of a disc is blocked
+      because neither crosses the circle. It should be blocked, because the inside of a
+      disc is blocked too
     inner-only: your code skips a disc whose nearest point lies beyond an end of the
-      edge. The end itself can lie in the disc
+      edge. Test the distance of the end itself, because the end can lie in the disc
     inner-only 2: your code skips a disc whose nearest point lies beyond an end, unless
-      the edge is a point. The end itself can lie in the disc
+      the edge is a point. Test the distance of the end itself, because the end can lie
+      in the disc
     first-disc-only: your code tests only the first disc. The edge must miss every disc
     last-disc-only: your code tests only the last disc. Does a loop return too early or
       overwrite the result?
-    nearest-centre: your code tests only the disc with the nearest centre, but a disc
-      farther away can be larger
-    all-must-hit: your code reports the edge as free as soon as the edge misses one
-      disc, but the edge must miss every disc
+    nearest-centre: your code tests only the disc with the nearest centre. Test every
+      disc, because a disc farther away can be larger
+    all-must-hit: your code reports the edge as free as soon as it misses one disc.
+      Report it as free only if it misses every disc
     all-must-hit 2: your code reports the edge as free only if the edge misses at least
       one disc. The edge must miss every disc, so it is free if there is no disc
     squared-for-plain: your code compares the squared distance with the radius. Compare
-      it with the squared radius
+      it with the squared radius instead
     plain-for-squared: your code compares the distance with the squared radius. Compare
-      it with the radius
-    diameter: your code compares the distance with twice the radius, but the third
-      number of a disc is its radius
-    half-the-radius: your code compares the distance with half of the radius, but the
-      third number of a disc is its radius
+      it with the radius instead
+    diameter: your code compares the distance with twice the radius. Compare it with the
+      radius itself, which is the third number of a disc
+    half-the-radius: your code compares the distance with half of the radius. Compare it
+      with the radius itself, which is the third number of a disc
     radius-forgotten: your code does not use the radius, so it treats the discs as
-      points
+      points. Compare the distance with the radius
     not-divided: your code does not divide the parameter of the nearest point by the
-      squared length of the edge
+      squared length of the edge. Divide it, so that the parameter is 1 at `b`
     divided-by-the-length: your code divides the parameter of the nearest point by the
-      length of the edge. Divide it by the squared length
+      length of the edge. Divide it by the squared length instead
     touching-is-free: your code reports an edge that touches a disc as free. It should
       be blocked
-    from-the-origin: your code computes the nearest point from the origin. First
-      subtract `a` from the centre
-    other-way: your parameter runs from `b` to `a`, but your code applies it from `a`
+    from-the-origin: your code projects the centre itself onto the edge. First subtract
+      `a` from the centre
+    other-way: your code measures the parameter from one end of the edge, but it applies
+      the parameter from the other end. Use the same end for both
     box: your code treats the discs as squares, because it compares each coordinate
-      separately. Use the Euclidean distance
-    foot-without-a: your code measures the nearest point from the origin. Add `a`
+      separately. Use the Euclidean distance instead
+    foot-without-a: your nearest point omits the start `a`. Add `a`
     cut-to-one: your code clamps a length along the edge to [0, 1]. Clamp it to the
-      length of the edge
+      length of the edge instead
     length-for-share: your code multiplies a length along the edge by b - a. Multiply it
       by the unit vector, or divide it by the length of the edge
-    distance-to-the-start: beyond the end `b`, your code uses the distance to `a`, but
-      the nearest point is `b`
-    first-crossing-only: your code tests only the first crossing of the circle, but an
-      edge that starts in a disc has only the second one
-    some-crossing: your code tests whether the infinite line meets the circle, but both
-      crossings can lie beyond an end of the edge
+    distance-to-the-start: your code uses the distance to `a` beyond the end `b`. Use
+      the distance to `b`, which is the nearest point
+    first-crossing-only: your code tests only the first crossing of the circle. Test the
+      second crossing too, because an edge that starts in a disc has only this one
+    some-crossing: your code tests whether the infinite line meets the circle. Use the
+      nearest point of the edge, because both crossings can lie beyond an end of the
+      edge
     boxes-overlap: your code tests whether the bounding boxes of the edge and the disc
-      overlap. The edge can cross the box of the disc and still miss the disc
+      overlap. Use the distance instead, because the edge can cross the box and still
+      miss the disc
     x-and-y-exchanged: your code swaps x and y of the centres. Each disc is (x, y,
       radius)
-    no-disc-is-hit: if there is no disc, your code reports a blocked edge, but the edge
-      is free
+    no-disc-is-hit: if there is no disc, your code reports a blocked edge. Report the
+      edge as free
     touching-between: your code reports an edge that touches a disc between its ends as
       free. It should be blocked
     points-only 7: your code misses discs that cover only a small part of the edge.
-      Either it tests only some points, or its nearest point is not exact
-    points-only 8: your code tests only some points of the edge, but a small disc can
-      lie between two of them
+      Compute the nearest point of the edge exactly
+    points-only 8: your code tests only some points of the edge. Use the point of the
+      edge nearest to the centre, because a small disc can lie between two tested points
     points-only 9: your code misses discs that cover only a small part of the edge.
-      Either it tests only some points, or its nearest point is not exact
+      Compute the nearest point of the edge exactly
     points-only 10: your code misses discs that cover only a small part of the edge.
-      Either it tests only some points, or its nearest point is not exact
+      Compute the nearest point of the edge exactly
     """
     along = b - a
     square = along @ along

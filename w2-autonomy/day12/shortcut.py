@@ -126,34 +126,38 @@ def _(path, world, pairs, answer):
 def _(path, world, pairs):
     """not-checked: your code removes points without testing the new edge. Remove them
       only if this edge is free
-    one-node-short: your code removes point j too, so the new edge ends at a point that
-      was not tested
+    one-node-short: your code removes point j too. Keep it, because the tested edge ends
+      at point j
     one-node-short 2: your code removes point i too. Keep path[: i + 1]
     one-too-many: your code keeps the point before j. Remove all points between i and j
-    end-lost: your first shortcut removes the end of the path. Keep the last point
+    end-lost: each of your shortcuts also removes the last point of the path. Keep the
+      last point
     first-cut-only: your code stops after the first shortcut. Try all pairs
     indices-of-the-first-path: your pairs refer to rows of the original path. They
       should refer to the current path
     indices-of-the-first-path 2: your code computes the indices with the length of the
-      original path, but uses them in the current path. Use the current length
+      original path, but it uses them in the current path. Use the length of the current
+      path instead
     not-sorted: your code skips a pair if its first row is the larger one. Sort the two
       rows
-    rounded: your code rounds u m to the nearest integer. Use int(), which rounds down
+    rounded: your code rounds u m to the nearest integer. Use int() instead, which
+      rounds down
     rounded 2: your code rounds u (m - 1). Use int(u m), which gives every row the same
       probability
     of-m-minus-one: your code multiplies u by m - 1. Use int(u m), which gives every row
       the same probability
-    neighbours-too: your code also treats neighbouring rows as a shortcut, but no point
-      lies between them
-    two-apart-left: your code skips rows that are two apart, but the point between them
-      can be removed
-    hit-for-free: your code inverts the test, so it applies shortcuts that are blocked
+    neighbours-too: your code also removes row i, and it does so even if the two rows
+      are neighbours. Keep row i, and leave neighbouring rows unchanged
+    two-apart-left: your code skips rows that are two apart. Test these rows too,
+      because the point between them can be removed
+    hit-for-free: your code inverts the test, so it applies shortcuts that are blocked.
+      Apply a shortcut if its edge is free
     unchanged: your code returns the original path. Apply each shortcut whose edge is
       free
     all-but-the-ends: your code returns only the start and the end. Keep the other
       points of the path
     only-the-ends-checked: your code tests only the two points. Test the edge between
-      them
+      these points
     middle-checked: your code tests only the midpoint of the edge. Test the whole edge
     reversed: your path runs from its end to its start. Keep the order of the waypoints
     ends-at-i: your code returns only the path up to i. Append the path from j on

@@ -85,41 +85,43 @@ def _(q, target, step):
       length
     fraction-at-most-all: your code uses `step` as a fraction of the displacement, at
       most 1, but `step` is a length
-    not-unit: your code does not divide the displacement to a far target by its norm
+    not-unit: your code does not divide the displacement to a far target by its norm.
+      Divide it, so that the norm of your step equals `step`
     squared: your code divides the displacement by its squared norm. Divide it by the
-      norm
-    from-the-target: your code subtracts the step from the target. Start at q
-    from-the-target 2: your code adds the step to the target. Start at q
-    direction-only: your code returns the displacement. Add it to q
-    direction-only 2: your code returns the displacement, limited to one step. Add it to
-      q
+      norm instead
+    from-the-target: your code subtracts the step from the target. Start at q instead
+    from-the-target 2: your code adds the step to the target. Start at q instead
+    direction-only: your code returns the displacement. Add the displacement to q
+    direction-only 2: your code returns the displacement, limited to one step. Add the
+      displacement to q
     away: your point moves away from the target. The direction should be target - q
-    away 2: if the target is far, your point moves away from it. The direction should be
-      target - q
+    away 2: if the target is far, your point moves away from the target. The direction
+      should be target - q
     stays-when-near: if the target is within one step, your code returns q. Return the
-      target
+      target instead
     always-q: your code always returns q. It should move one step towards the target
     largest-coordinate: your code uses the largest difference in one coordinate as the
-      distance. Use the Euclidean norm
+      distance. Use the Euclidean norm instead
     largest-coordinate 2: your code limits each coordinate to a step. Limit the norm of
       the displacement
     sum-of-sizes: your code uses the sum of the absolute differences as the distance.
-      Use the Euclidean norm
-    unit-step: your displacement has norm 1. Use the argument `step`
+      Use the Euclidean norm instead
+    unit-step: your displacement has norm 1. Use the argument `step` instead
     half-a-step: your displacement is half a step. Use a whole step
     limit-the-other-way: your code swaps the two cases. Return the target if it is near,
       and take a full step if it is far
-    from-the-origin: your step starts at the origin. Start at q
+    from-the-origin: your step starts at the origin. Start at q instead
     square-compared: your code compares the squared distance with the step. Compare the
       distance itself
-    two-coordinates: your distance uses only the first two coordinates. Use all of them
+    two-coordinates: your code uses only the first two coordinates for the distance. Use
+      all coordinates
     root-of-the-mean: your code takes the root of the mean of the squares. Take the root
-      of their sum
+      of the sum of the squares instead
     length-of-the-target: your code divides the displacement by the norm of the target.
-      Divide it by the norm of target - q
+      Divide it by the norm of target - q instead
     direction-from-the-origin: your code uses the direction from the origin to the
-      target. Use the direction from q to the target
-    stops-half-way: if the target is near, your point moves only half of the distance.
+      target. Use the direction from q to the target instead
+    stops-half-way: if the target is near, your code goes only half of the distance.
       Return the target
     step-on-each-coordinate: if the target is far, your code changes each coordinate by
       a full step. The norm of the displacement should be one step

@@ -237,37 +237,38 @@ def _(H, f, lo, hi, x):
       bounds. If one entry is held at a bound, the optimal values of the other entries
       change, so solve for them again
     no-limits: your result is the unconstrained minimiser -H^-1 f. Return the minimiser
-      within the bounds
-    scaled-back: your step towards the unconstrained minimiser ends at the first bound.
-      From there, the free entries should move on
-    solved-once-more: your code clamps the unconstrained minimiser and solves the free
-      entries again only once. After that, other entries may reach a bound, or a held
-      entry may have to be released
-    clipped-for-good: your code solves the free entries again until all are within the
-      bounds, but it never releases a clamped entry. Release an entry if the negative
+      within the bounds instead
+    scaled-back: your code stops at the first bound on the way to the unconstrained
+      minimiser. Hold the entry at this bound, and continue with the other entries
+    solved-once-more: your code clamps the unconstrained minimiser and then solves for
+      the free entries only once. Another entry may then violate a bound, or a held
+      entry may have to be released, so repeat this step
+    clipped-for-good: your code solves for the free entries until all are within the
+      bounds, but it never releases a clamped entry. Release an entry if its negative
       gradient points away from its bound
     held-for-good: your code never releases an entry that has reached a bound, or it
-      releases the wrong one. Release an entry if the negative gradient points away from
+      releases the wrong one. Release an entry if its negative gradient points away from
       its bound
     steepest-let-go: your code releases the held entry with the largest gradient,
       whatever its sign. Release the entry that the clamped step of task 13.4 moves most
     all-let-go: your code releases all held entries at once, so they reach the same
       bounds again. Release only the entry that would move most
     stops-too-early: your loop ends although a held entry would still move by up to
-      1e-4. Use a smaller tolerance
-    few-rounds: your code stops after ten iterations, which are not enough. Repeat until
-      no held entry has to be released
-    upper-limits-passed: your code does not stop the step at the upper bounds
+      1e-4. Use a smaller tolerance instead
+    few-rounds: your code stops after ten iterations, which is not enough for some
+      problems. Repeat until no held entry has to be released
+    upper-limits-passed: your step can violate the upper bounds. Stop the step at the
+      first bound that it reaches
     held-by-place: your code holds every entry that is at a bound. Release an entry if
-      the negative gradient points away from its bound
-    frees-the-wrong-ones: your code holds the wrong entries. Hold an entry if the
-      negative gradient points out of the box
+      its negative gradient points away from its bound
+    frees-the-wrong-ones: your code holds the wrong entries. Hold an entry at a bound if
+      its negative gradient points out of the box
     held-left-out: your right-hand side for the free entries leaves out the held
       entries. Use the gradient H x + f at the current x
     held-left-out 2: your right-hand side for the free entries leaves out the held
       entries. Use the gradient H x + f at the current x
     one-step: your result is x after one clamped Newton step. If one entry is held at a
-      bound, the optimal values of the other entries change, so one step is not enough
+      bound, the optimal values of the other entries change, so solve for them again
     full-hessian: your code solves for each step with the whole matrix H. The held
       entries do not move, so leave out their rows and columns
     whole-steps: your code takes each Newton step of the free entries in full and clamps
@@ -283,7 +284,8 @@ def _(H, f, lo, hi, x):
     diagonal-hessian 2: your code divides the gradient by the diagonal of H. Solve with
       the rows and columns of H for the free entries
     gradient-steps 3: your result is x after 1,000 clamped gradient steps. They have not
-      converged if the condition number of H is large, as in task 13.6
+      converged if the condition number of H is large, as in task 13.6, so solve for the
+      free entries instead
     one-gradient-step: your result is x after one clamped gradient step, which is not
       the minimum. Repeat the steps until x no longer changes, or solve for the free
       entries
@@ -297,7 +299,7 @@ def _(H, f, lo, hi, x):
     lower-only: your code uses only the lower bounds. Use the upper bounds too
     upper-only: your code uses only the upper bounds. Use the lower bounds too
     start-returned: your function returns the start point, clamped to the bounds. Return
-      the minimiser within the bounds
+      the minimiser within the bounds instead
     """
     given = (H, f, lo, hi, x)
     free = np.linalg.solve(H, -f)

@@ -23,7 +23,7 @@ def _(dV, alpha):
     """sign: your result has the opposite sign. A reduction is positive if the cost
       falls
     alpha-rooted: your code multiplies the quadratic part by the square root of alpha.
-      Multiply it by alpha^2
+      Multiply it by alpha^2 instead
     """
     first, second = dV
     return {

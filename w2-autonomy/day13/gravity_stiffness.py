@@ -75,76 +75,80 @@ def _(J_space, masses, coms, g):
     """sign: your result has the opposite sign. Relative to the rotated links, gravity
       rotates in the opposite direction, so use g x omega instead of omega x g
     gravity-not-turned: your code uses g instead of g x omega, so each column is the
-      gravity torque itself. The stiffness is its derivative
+      gravity torque itself. Use g x omega, because the stiffness is the derivative of
+      this torque
     gravity-not-turned 2: your code uses g instead of g x omega, so each column is the
-      gravity torque itself. The stiffness is its derivative
+      gravity torque itself. Use g x omega, because the stiffness is the derivative of
+      this torque
     g-times-omega: your code multiplies g and omega entry by entry. Use the cross
-      product g x omega
+      product g x omega instead
     link-i-only: your row i contains only the weight of link i. Joint i also carries all
       links distal to it
-    only-links-after: your row i leaves out the weight of link i. Joint i moves link i
-      too
-    all-links: your row i contains the weights of all links. Joint i does not carry the
-      links before it
-    lever-sign: your lever arm has the wrong sign. A centre of mass moves with v + omega
-      x c
+    only-links-after: your row i omits the weight of link i. Include it, because joint i
+      moves link i too
+    all-links: your row i contains the weights of all links. Start with link i, because
+      joint i does not carry the links before it
+    lever-sign: your lever arm has the wrong sign. Use v + omega x c, which is the
+      velocity of a centre of mass c
     halves-swapped: your code swaps omega and v. The upper three rows of J_space are
       omega
-    upper-half-zero: your entries above the diagonal are all 0, but the matrix is
-      symmetric
-    lower-half-zero: your entries below the diagonal are all 0, but the matrix is
-      symmetric
+    upper-half-zero: your entries above the diagonal are all 0. Copy the entries below
+      the diagonal to them, because the matrix is symmetric
+    lower-half-zero: your entries below the diagonal are all 0. Copy the entries above
+      the diagonal to them, because the matrix is symmetric
     upper-half-sign: your entries above the diagonal have the wrong sign. The matrix
       should be symmetric
-    half-beside-the-diagonal: your code halves the off-diagonal entries, because it
-      takes the mean of a lower triangular matrix and its transpose. Off the diagonal,
-      one of the two matrices is 0
+    half-beside-the-diagonal: your code takes the mean of a lower triangular matrix and
+      its transpose, which halves the off-diagonal entries. Halve only the diagonal of
+      their sum
     diagonal-zero: your diagonal is 0. The lower triangle should include the diagonal
     not-symmetrised: your code also uses the formula above the diagonal. The formula
-      holds only for i >= j, because then joint j rotates every link that joint i
+      holds only for i >= j, because joint j then rotates every link that joint i
       carries. Copy the lower triangle to the upper one
     not-symmetrised 2: your code also uses the formula above the diagonal and transposes
       the result. The formula holds only for i >= j, so copy the lower triangle to the
       upper one
-    averaged: your code averages the two triangles, but only the lower one is correct.
-      Copy it to the upper one
-    other-half: your code computes the upper triangle and copies it. The formula with g
-      x omega_j holds only for i >= j, so compute the lower triangle
-    diagonal-doubled: your code doubles the diagonal, because both of the triangles that
-      you add contain it
-    diagonal-only: your off-diagonal entries are all 0, but the rotation of one joint
-      also changes the torque at other joints
-    only-z: your code uses only the z component of g, but gravity may point in any
-      direction
-    minus-9.81: your code replaces g by (0, 0, -9.81), but gravity may point in any
-      direction
-    minus-9.81 2: your code replaces g by a vertical vector of the same norm, but
+    averaged: your code averages the two triangles, although only the lower triangle is
+      correct. Copy the lower triangle to the upper one instead
+    other-half: your code computes the upper triangle of the stiffness matrix and copies
+      it to the lower one. The formula with g x omega_j holds only for i >= j, so
+      compute the lower triangle instead
+    diagonal-doubled: your code adds two triangles that both contain the diagonal, so
+      the diagonal is doubled. Add the diagonal only once
+    diagonal-only: your off-diagonal entries are all 0. Compute them too, because the
+      rotation of one joint also changes the torque at other joints
+    only-z: your code uses only the z component of g. Use the whole vector, because
       gravity may point in any direction
-    axis-before: your column j rotates gravity about the axis of the previous joint. It
-      should use the axis of joint j
-    axes-summed: your column j rotates gravity about the sum of all axes up to joint j,
-      but only joint j rotates
-    g-along-omega: your code uses the component of g along omega instead of g x omega
+    minus-9.81: your code replaces g by (0, 0, -9.81). Use the argument g, because
+      gravity may point in any direction
+    minus-9.81 2: your code replaces g by a vertical vector of the same norm. Use the
+      argument g, because gravity may point in any direction
+    axis-before: your column j rotates gravity about the axis of the previous joint. Use
+      the axis of joint j instead
+    axes-summed: your column j rotates gravity about the sum of all axes up to joint j.
+      Use only the axis of joint j
+    g-along-omega: your code uses the component of g along omega. Use the cross product
+      g x omega instead
     total-mass: your code uses the mass of the whole arm for every link. Use the mass of
       each link
     differences: your result is a finite difference of the torque with the large step of
-      0.05 rad. The stiffness is the derivative
+      0.05 rad. Use the formula with g x omega instead, which gives the exact derivative
     last-axis: every column of your matrix rotates gravity about the axis of the last
       joint. Column j should use the axis of joint j
     z-axis: every column of your matrix rotates gravity about z. Column j should use the
       axis of joint j
-    turned-twice: your code rotates gravity twice, by omega_i and by omega_j. Rotate
-      gravity only by omega_j
-    v-for-omega: your code rotates gravity by v_j. The rotation axis of a joint is
+    turned-twice: your code rotates gravity about both omega_i and omega_j. Rotate
+      gravity only about omega_j
+    v-for-omega: your code rotates gravity about v_j. The rotation axis of a joint is
       omega_j, the upper three rows of J_space
     torque-added: your code adds g to g x omega_j, which adds the gravity torque itself.
-      The stiffness is its derivative
-    distal-joints-too: each of your entries also contains links that only one of the two
-      joints moves. Use only the links from the later joint on, which both joints move
+      Use g x omega_j alone, because the stiffness is the derivative of the torque
+    distal-joints-too: your code also sums over links that only one of the two joints
+      moves. Sum only over the links from the later joint on, which both joints move
     roles-swapped: your code swaps the two joints. The later joint moves the centre of
-      mass, and the earlier joint rotates this velocity
-    screws-stay: in your code, joint j moves only the centres of mass. It should also
-      move the axes of the joints after it
+      mass, and the earlier joint rotates the velocity of this centre
+    screws-stay: your code lets joint j move only the centres of mass. Joint j should
+      also move the axes of the joints after it
     """
     omega = J_space[:3].T
     turned = np.cross(g, omega)

@@ -40,51 +40,55 @@ def clipped_first(H, f, lo, hi, x):
 
 @row.wrongs
 def _(H, f, lo, hi, x):
-    """gradient-only: your result is the largest entry of the gradient. At the
-      minimiser, the gradient of an entry that is held at a bound need not be 0, so
-      clamp the step to the bounds
-    no-abs-the-other-way: your code omits the absolute value, so it ignores every entry
-      that decreases
-    not-compared: your result is the clamped point itself. Compare it with x
-    free-only: your code uses only the entries that are between their bounds. An entry
-      at a bound also contributes if the negative gradient points away from the bound
+    """gradient-only: your result is the largest absolute entry of the gradient. At the
+      minimiser, this entry need not be 0 at a bound, so clamp x minus the gradient to
+      the bounds
+    no-abs-the-other-way: your code omits the absolute value of the differences, so it
+      ignores every entry that decreases. Take the absolute value of each difference
+      first
+    not-compared: your result is the clamped point itself. Return the largest absolute
+      difference between x and this point
+    free-only: your code uses only the entries that are between their bounds. Use all
+      entries, because the negative gradient of an entry at a bound may point into the
+      box
     lower-only: your code clamps the step only at the lower bounds. Clamp it at the
       upper bounds too
     upper-only: your code clamps the step only at the upper bounds. Clamp it at the
       lower bounds too
-    cost-gap: your result is the decrease in cost that the clamped step causes. The
-      residual should be the largest change of an entry of x
+    cost-gap: your result is the decrease in cost that the clamped step causes. Return
+      the largest absolute change of an entry of x instead
     first-only: your code uses only the first entry. Use the entry that changes most
     last-only: your code uses only the last entry. Use the entry that changes most
     share-of-x: your code divides the residual by the largest entry of x if this entry
       is above 1. Do not divide the residual
     distance: your result is the distance to the minimiser. Compute the residual from
       the gradient at x, without the minimiser
-    newton-push: in your code, x moves by a Newton step. It should move by minus the
-      gradient
-    jacobi-push: in your code, x moves by the gradient divided by the diagonal of H. It
-      should move by minus the gradient itself
+    newton-push: your code moves x by a Newton step. Move x by minus the gradient
+      instead
+    jacobi-push: your code moves x by minus the gradient divided by the diagonal of H.
+      Move x by minus the gradient itself
     limits-swapped: your code swaps the lower and the upper bounds. The lower bounds
       come first
-    two-pushes: in your code, x moves by twice the gradient. It should move by minus the
-      gradient
-    half-a-push: in your code, x moves by half the gradient. It should move by minus the
-      gradient
+    two-pushes: your code moves x by minus twice the gradient. Move x by minus the
+      gradient itself
+    half-a-push: your code moves x by minus half the gradient. Move x by minus the
+      gradient itself
     unit-box: your code replaces the bounds by -1 and 1. Use the arguments lo and hi
+      instead
     which-one: your result is the index of the largest difference. Return the absolute
       difference itself
     clipped-for-the-difference: your code compares the new point with the clamped x.
-      Compare it with x itself
+      Compare the new point with x itself
     clipped-first: your code first clamps x, so the residual ignores the distance of x
-      from the box
-    slope-that-counts: your result is the largest gradient entry that does not push
-      against an active bound. Clamp the step to both bounds, because it may also reach
-      the opposite bound
-    slope-that-counts 2: your result is the largest gradient entry that does not push
-      against an active bound. Clamp the step to both bounds, because it may also reach
-      the opposite bound
-    signed-limit: your code ignores the gradient of every entry at a bound. Ignore the
-      gradient only where its negative points out of the box
+      from the box. Use x itself
+    slope-that-counts: your code ignores an entry only if it is at a bound and its
+      negative gradient points out of the box. Clamp x minus the gradient to both
+      bounds, because other entries may violate a bound too
+    slope-that-counts 2: your code ignores an entry only if it is at a bound and its
+      negative gradient points out of the box. Clamp x minus the gradient to both
+      bounds, because other entries may violate a bound too
+    signed-limit: your code ignores every entry at a bound. Clamp x minus the gradient
+      to both bounds for all entries, because an entry at a bound may move into the box
     """
     s = H @ x + f
     d = x - np.clip(x - s, lo, hi)

@@ -56,34 +56,36 @@ def exact(A, B, h, terms=59):
 
 @row.wrongs
 def _(M, stiffness, damping, h):
-    """slope-not-divided: your code uses the gravity stiffness as an acceleration. The
-      stiffness gives a torque, so multiply it by (M + h D)^-1
-    explicit-damping: your damping acts on the old velocity. In MuJoCo's implicitfast it
-      acts on the new velocity, so add h D to M
+    """slope-not-divided: your code uses the gravity stiffness as an acceleration.
+      Multiply it by (M + h D)^-1, because the stiffness gives a torque
+    explicit-damping: your damping acts on the old velocity. In MuJoCo's integrator
+      implicitfast, the damping acts on the new velocity, so add h D to M
     damping-twice: your damping acts on both the old and the new velocity, (M + h D)^-1
       (M - h D). It should act on the new velocity only
     damping-halved: half of your damping acts on the old velocity and half on the new
-      one. All of it should act on the new velocity
-    position-first: in your code, the joints move at the old velocity. In MuJoCo they
-      move at the new velocity, so use q + h times the new velocity
-    half-h-squared: in your code, the joints move by h v + h^2 a / 2. In MuJoCo they
-      move at the new velocity for the whole step
+      one. The whole damping should act on the new velocity
+    position-first: your code moves the joints at the old velocity. MuJoCo moves them at
+      the new velocity, so use q + h times the new velocity
+    half-h-squared: your code moves the joints by h v + h^2 a / 2. MuJoCo moves them at
+      the new velocity for the whole step, so use h times the new velocity
     velocity-kept: the right half of your A has no damping. The new velocity should
       contain (M + h D)^-1 M v
-    velocity-kept 2: the lower right block of your A is the identity. It should be (M +
-      h D)^-1 M, because the damping reduces the velocity
+    velocity-kept 2: the lower right block of your A is the identity matrix. It should
+      be (M + h D)^-1 M, because the damping reduces the velocity
     inverse-by-entry: your code inverts each entry of M + h D separately. Use the matrix
-      inverse
-    position-kept: the upper left block of your A is the identity. The gravity stiffness
-      changes the new velocity, which moves the joints within the same step
-    B-upper-zero: the upper half of your B is 0. The input changes the new velocity,
-      which moves the joints within the same step
+      inverse instead
+    position-kept: the upper left block of your A is the identity matrix. Subtract h^2
+      (M + h D)^-1 times the stiffness, because gravity changes the new velocity, which
+      moves the joints
+    B-upper-zero: the upper half of your B is 0. It should be h times the lower half,
+      because the new velocity moves the joints within the same step
     continuous: your A and B belong to the continuous-time system x' = A x + B u. Return
-      the A and B of one discrete step h
-    step-of-euler: your A and B belong to the explicit Euler step x + h x'. In MuJoCo
-      the new velocity moves the joints, and the damping acts on the new velocity
+      the matrices of one time step, x+ = A x + B u
+    step-of-euler: your A and B belong to the explicit Euler step x + h x'. Return the
+      matrices of MuJoCo's semi-implicit step, in which the new velocity moves the
+      joints
     identity-missing: your `A` gives the change of the state. The new state also
-      contains x itself, so add the identity
+      contains x itself, so add the identity matrix
     halves-swapped: your code swaps positions and velocities. The state should be (q -
       q0, qd)
     A-rows-swapped: your code swaps the upper and the lower rows of A. The rows of the
@@ -93,25 +95,26 @@ def _(M, stiffness, damping, h):
     B-swapped: your code swaps the upper and the lower half of B. The rows of the
       positions should come first
     exponential: your A and B are the exact discretisation by the matrix exponential.
-      MuJoCo's step is semi-implicit
-    exponential 2: your A and B are the first terms of the matrix exponential. MuJoCo's
-      step is semi-implicit
+      Return the matrices of MuJoCo's semi-implicit step instead
+    exponential 2: your A and B are the first terms of the matrix exponential. Return
+      the matrices of MuJoCo's semi-implicit step instead
     slope-implicit: your gravity stiffness acts on the new position. In MuJoCo it acts
-      on the old position
+      on the old position, so invert only M + h D
     damping-not-divided: your code does not divide the damping by the mass, and the
       damping acts on the old velocity. In MuJoCo the new velocity is (M + h D)^-1 M v
       => both
-    B-not-divided: your B omits the factor (M + h D)^-1, but the input is a torque, not
-      an acceleration
+    B-not-divided: your B omits the factor (M + h D)^-1. Multiply the input by this
+      factor, because the input is a torque and not an acceleration
     B-halved-below: your code halves the lower half of B. The torque acts for the whole
-      step
-    B-without-damping: your B uses M^-1 without the damping. Use (M + h D)^-1
+      step, so omit the factor 1/2
+    B-without-damping: your code uses M^-1 in B, which omits the damping. Use (M + h
+      D)^-1 instead
     slope-halved-above: your code halves the stiffness in the upper left block of A. The
-      new velocity moves the joints for the whole step
+      new velocity moves the joints for the whole step, so omit the factor 1/2
     B-halved-above: your code halves the upper half of B. The new velocity moves the
-      joints for the whole step
-    upper-right-h: the upper right block of your A is h times the identity. The joints
-      move by h times the new velocity, (M + h D)^-1 M v
+      joints for the whole step, so omit the factor 1/2
+    upper-right-h: the upper right block of your A is h times the identity matrix. It
+      should be h (M + h D)^-1 M, because the new velocity moves the joints
     upper-without-h: your code omits h in the upper half of A. The joints move by h
       times the new velocity
     """

@@ -65,35 +65,37 @@ def solved(J, e, weights, damp, lo, hi, right=None, box=box_qp):
 
 @row.wrongs(hidden={"stands-still-allowed": "no joint of the lab is beyond its range"})
 def _(J, e, weights, damping, dq_lo, dq_hi):
-    """clip-after: your result is Day 3's damped step, clamped. If one joint is held at
-      its bound, the other joints should compensate for it, so solve the quadratic
-      program with bounds
+    """clip-after: your result is Day 3's damped step, clamped to the bounds. If one
+      joint is held at its bound, the other joints should compensate for it, so solve
+      the quadratic program with bounds
     scaled-back: your code scales the whole step down until every joint is within its
-      bounds, but the joints that are not at a bound should move further
-    not-limited: your code ignores the bounds dq_lo and dq_hi
+      bounds. Solve the quadratic program instead, so that the joints that are not at a
+      bound compensate for the others
+    not-limited: your code ignores the bounds dq_lo and dq_hi. Solve the quadratic
+      program with these bounds
     lower-only: your code uses only the lower bounds. Use the upper bounds too
     upper-only: your code uses only the upper bounds. Use the lower bounds too
     limits-mirrored: your code replaces the lower bounds by minus the upper ones. Use
-      both arguments
+      both dq_lo and dq_hi
     limits-mirrored 2: your code replaces the lower bounds by minus the upper ones. Use
-      both arguments
+      both dq_lo and dq_hi
     limits-mirrored 3: your code replaces the upper bounds by minus the lower ones. Use
-      both arguments
+      both dq_lo and dq_hi
     limits-swapped: your code swaps the lower and the upper bounds. The lower bounds
       come first
-    limits-1: your code replaces the bounds by -1 and 1. Use dq_lo and dq_hi
+    limits-1: your code replaces the bounds by -1 and 1. Use dq_lo and dq_hi instead
     clipped-twice: your code clamps Day 3's damped step and then a second step for the
       remaining error. The second step should leave out the joints that are held at a
       bound
-    mean-weight-in-g: your linear term uses the mean of the weights. Multiply each row
-      of e by its own weight
-    clip-after 2: your result is Day 3's damped step without the weights, clamped. If
-      one joint is held at its bound, the other joints should compensate for it, so
-      solve the quadratic program with bounds
-    damping-weighted: your code multiplies the damping by the mean of the weights, but
-      the weights apply only to the rows of the error
-    stands-still-allowed: your code widens the bounds until they contain 0, but a joint
-      beyond its range should move back into its range
+    mean-weight-in-g: your f = -J^T W e contains the mean of the weights. Multiply each
+      entry of e by its own weight instead
+    clip-after 2: your result is Day 3's damped step without the weights, clamped to the
+      bounds. If one joint is held at its bound, the other joints should compensate for
+      it, so solve the quadratic program with bounds
+    damping-weighted: your code multiplies the damping by the mean of the weights. Omit
+      this factor, because the weights apply only to the rows of the error
+    stands-still-allowed: your code widens the bounds until they contain 0. A joint
+      beyond its range should move back into its range, so keep the bounds
     translation-only: your code uses only the translation part of the error. Use all six
       components
     rotation-only: your code uses only the rotation part of the error. Use all six

@@ -17,15 +17,16 @@ row.spans(expected=(1e-5, 1e5), after=(lambda after: 1e6,))
 @row.wrongs
 def _(before, after, expected):
     """sign: your ratio has the opposite sign. The measured reduction is before - after
-    difference: your result is the measured reduction minus the expected one. Return
-      their ratio
+    difference: your result is the measured reduction minus the expected one. Return the
+      measured reduction divided by the expected one instead
     after-over-before: your result is after / before, the fraction of the cost that
-      remains. Return the measured reduction divided by the expected one
+      remains. Return the measured reduction divided by the expected one instead
     percent: your ratio is in per cent, so it is 100 times too large. Return a fraction
-    less-1: your function subtracts 1 from the ratio. The ratio should be 1 if the cost
-      falls as expected
-    how-well-foretold: your result is 1 - |measured - expected| / |expected|. If the
-      cost falls more than expected, the ratio should be above 1
+      instead
+    less-1: your function subtracts 1 from the ratio. Return the ratio itself, which is
+      1 if the cost falls as expected
+    how-well-foretold: your result is 1 - |measured - expected| / |expected|. Return
+      measured / expected instead, which is above 1 if the cost falls more than expected
     """
     saved = before - after
     ratio = saved / expected

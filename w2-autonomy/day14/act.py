@@ -39,11 +39,13 @@ def _(theta, observation):
     clipped-after: your code clamps the action. Clamp theta before you use it
     clipped-below-only: your code clamps theta only at LOW. Clamp it at HIGH too
     clipped-above-only: your code clamps theta only at HIGH. Clamp it at LOW too
-    half-clipped: your code clamps only the last three entries of theta. Clamp all of
-      them
-    shift-forgotten: your code omits the shift, which the first two entries of theta
-      contain
-    x-shift-only: your code omits the shift along the y axis of the cube
+    half-clipped: your code clamps only the last three entries of theta. Clamp all
+      entries
+    shift-forgotten: your code omits the shift given by the first two entries of theta.
+      Rotate this shift by the yaw of the observation, and add it to x and y
+    x-shift-only: your code omits the shift along the y axis of the cube, which is the
+      second entry of theta. Rotate both components of the shift by the yaw of the
+      observation
     opening-and-height-swapped: your code swaps the height and the opening. The order
       should be (x, y, yaw, height, opening, lift)
     lift-from-the-floor: your code adds the height to the lift. Return the lift itself,

@@ -58,23 +58,23 @@ def of_best(samples, best):
 
 @row.wrongs(hidden={"nan-is-zero": "no NaN of the lab has a score below 0 beside it"})
 def _(mean, std, noise, scores, elite):
-    """nan-first: your elite contains a sample with the score NaN. The function
-      np.argsort sorts NaN last, so [::-1] puts it first
-    nan-first 2: your elite contains a sample with the score NaN. The function
-      np.argsort sorts NaN last, so [::-1] puts it first
-    nan-first 3: your elite contains a sample with the score NaN. The function
-      np.argsort sorts NaN last, so [::-1] puts it first and also reverses the order of
-      equal scores
-    ties-last-first: your code keeps the last of several equal scores. Keep the first
-      ones
+    """nan-first: your elite contains a sample with the score NaN. Sort -scores with
+      np.argsort instead of reversing the order, because np.argsort puts NaN last
+    nan-first 2: your elite contains a sample with the score NaN. Sort -scores with
+      np.argsort instead of reversing the order, because np.argsort puts NaN last
+    nan-first 3: your elite contains a sample with the score NaN, and your order of
+      equal scores is reversed. Sort -scores with np.argsort(-scores, kind='stable'),
+      which puts NaN last
+    ties-last-first: your code keeps the last of several equal scores. Keep the first of
+      them instead
     std-kept: your `std` is unchanged. Return the standard deviation of the elite
-    n-minus-one: your standard deviation divides by elite - 1. Divide by elite
+    n-minus-one: your code divides by elite - 1 in the standard deviation. Divide by
+      elite instead
     about-the-old-mean: your code takes the standard deviation about the old mean. Take
-      it about the mean of the elite
+      the standard deviation about the mean of the elite
     one-spread-for-all: all parameters in your result have the same standard deviation.
-      Each should have its own, so use axis=0
-    best-left-out: your code leaves out the best sample, so the elite begins with the
-      second one
+      Each parameter should have its own, so use axis=0
+    best-left-out: your elite begins with the second best sample. Include the best one
     nan-is-zero: your code treats NaN as a score of 0. Treat NaN as worse than all other
       scores
     elite-one-less: your elite has one sample too few. Does your slice end too early?
@@ -85,6 +85,7 @@ def _(mean, std, noise, scores, elite):
     weighted 3: your code weights the mean by the scores. All elite samples should have
       the same weight
     median: your code replaces the mean by the median. Return the mean of the elite
+      instead
     halves-swapped: your code swaps the mean and the standard deviation. The mean should
       come first
     """

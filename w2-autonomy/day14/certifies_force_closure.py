@@ -90,30 +90,35 @@ IN_ONE_UNIT = "all rows and weights of the lab are of similar size"
     hidden={"balance-of-all": IN_ONE_UNIT, "balance-without-weights": IN_ONE_UNIT}
 )
 def _(W, weights):
-    """rank-only: your code tests only the rank. If all fingers are on one face, the
-      rank is 6, but the fingers cannot pull
-    balance-only: your code does not test the rank. Two opposite fingers balance, but
-      the cube can rotate about the line through them
+    """rank-only: your code tests only the rank. The rank is 6 even if all fingers press
+      on one face, so also test the weights and W w = 0
+    balance-only: your code does not test the rank. The forces of two opposite fingers
+      balance although the cube can rotate about the line through them, so test that the
+      rank is 6
     balance-and-rank-5: your code accepts rank 5. A wrench has six components, so the
       rank must be 6
     zero-weights-do: your code accepts a weight of 0. Every weight must be above 0
-    sign-forgotten: your code accepts weights below 0, but a finger cannot pull
+    sign-forgotten: your code accepts weights below 0. Every weight must be above 0,
+      because a finger cannot pull
     some-weight-above-0: your code accepts the weights if at least one is above 0. Every
       weight must be above 0
-    balance-forgotten: your code does not test the condition W w = 0
+    balance-forgotten: your code does not test the condition W w = 0. Test it too,
+      because the wrenches must balance
     balance-absolute: your tolerance for W w is absolute, as in np.allclose(W @ weights,
-      0), so the answer depends on the units. It should be 1e-9 of the sum of |W_ij w_j|
-    balance-roughly: your tolerance for W w is 1e-4 of the sum of |W_ij w_j|. It should
-      be 1e-9 of this sum
+      0). Use 1e-9 times the sum of |W_ij w_j| for each row, so that the answer does not
+      depend on the units
+    balance-roughly: your tolerance for W w is 1e-4 times the sum of |W_ij w_j|. Use
+      1e-9 times this sum instead
     balance-of-all: your code uses one tolerance for all rows of W w, computed from
-      their norm or their sum. Compare each row with 1e-9 of its own sum of |W_ij w_j|
+      their norm or their sum. Compare each row with 1e-9 times its own sum of |W_ij
+      w_j|
     first-row-only: your code tests only the first row of W w. All six rows must be 0
-    balance-without-weights: your tolerance for W w is 1e-9 of the largest entry of each
-      row. It should be 1e-9 of the sum of |W_ij w_j|
-    rank-absolute: your code compares the singular values with 1e-9, so the answer
-      depends on the units. Compare them with 1e-9 times the largest singular value
-    determinant: your code tests the rank with det(W W^T), so the answer depends on the
-      units. Compare the singular values with 1e-9 times the largest one
+    balance-without-weights: your tolerance for W w is 1e-9 times the largest entry of
+      each row of W. Use 1e-9 times the sum of |W_ij w_j| instead
+    rank-absolute: your code compares the singular values with 1e-9. Compare them with
+      1e-9 times the largest one, so that the answer does not depend on the units
+    determinant: your code tests the rank with det(W W^T). Compare the singular values
+      with 1e-9 times the largest one, so that the answer does not depend on the units
     nothing-may-be-left: your code tests whether W w is exactly 0. Rounding leaves about
       1e-16 even if the forces balance, so compare W w with a tolerance
     rank-by-rounding: your rank uses NumPy's default tolerance. The tolerance should be

@@ -42,33 +42,34 @@ def edges(n, mu, k, axis=None, *, a=None, t=None):
 
 @row.wrongs
 def _(normal, mu, k):
-    """axis-x: your `a` is always along n x (1, 0, 0). Use the coordinate axis along
-      which n has the smallest absolute component, the first of equal ones
-    axis-z: your `a` is always along n x (0, 0, 1). Use the coordinate axis along which
-      n has the smallest absolute component, the first of equal ones
-    axis-z 2: your `a` is always along n x (0, 0, 1). Use the coordinate axis along
-      which n has the smallest absolute component, the first of equal ones
-    last-of-equals: if two components of n have the same absolute value, your code uses
-      the last one. Use the first
+    """axis-x: your `a` is always along n x (1, 0, 0). Use the coordinate axis for which
+      n has the smallest absolute component. If several are equal, use the first
+    axis-z: your `a` is always along n x (0, 0, 1). Use the coordinate axis for which n
+      has the smallest absolute component. If several are equal, use the first
+    axis-z 2: your `a` is always along n x (0, 0, 1). Use the coordinate axis for which
+      n has the smallest absolute component. If several are equal, use the first
+    last-of-equals: if n has several smallest absolute components, your code uses the
+      last of these coordinate axes. Use the first of them instead
     largest-axis: your code uses the coordinate axis with the largest absolute component
-      of n. Use the axis with the smallest one
-    signed-least: your code uses the coordinate axis with the smallest component of n.
-      Compare the absolute values
-    axis-x-n: your direction `a` is along axis x n. It should be along n x axis,
+      of n. Use the axis with the smallest absolute component instead
+    signed-least: your code uses the coordinate axis with the smallest signed component
+      of n. Compare the absolute values of the components instead
+    axis-x-n: your direction `a` is along axis x n. It should be along n x axis, because
       otherwise the edges begin on the opposite side
     axis-itself: your direction `a` is the projection of the axis onto the tangent
-      plane. It should be along n x axis, which is perpendicular to your `a`
+      plane. Use n x axis instead, which is perpendicular to this projection
     last-is-first: your last edge is equal to the first, because t ends at 2 pi. The
       last t should be 2 pi (k - 1) / k
-    degrees: your t is in degrees, but np.cos and np.sin expect radians
-    from-one: your i begins at 1. The first edge should have i = 0
-    mu-on-the-normal: your code multiplies the normal by mu. It should multiply the
-      tangential part by mu
+    degrees: your t is in degrees. It should be 2 pi i / k, because np.cos and np.sin
+      expect radians
+    from-one: your index i begins at 1. It should begin at 0
+    mu-on-the-normal: your code multiplies the normal by mu. Multiply the tangential
+      part by mu instead
     half-steps: your code shifts t by half a step. The first edge should have t = 0
     length-1: your code normalises the edges. Their component along the normal should be
       1
     mu-is-an-angle: your code uses mu as the angle of the cone. The coefficient of
-      friction is already the tangent of that angle
+      friction is already the tangent of this angle, so use mu itself
     normal-left-in-mu: your code also multiplies the normal by mu. It should multiply
       only the tangential part by mu
     in-columns: your matrix has one edge per column. It should have one edge per row

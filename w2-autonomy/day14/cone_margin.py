@@ -35,10 +35,10 @@ def _(force, normal, mu):
       normal force is the component along the normal
     force-length-for-press 2: your code uses the norm of the whole force as f_n. The
       normal force is the component along the normal
-    one-length-for-all: your code takes one norm over all contacts. Each contact has its
-      own norm, so use axis=1
+    one-length-for-all: your code takes one norm of the tangential forces of all
+      contacts together. Take the norm of each contact's force, with axis=1
     mu-is-an-angle: your code uses mu as the angle of the cone. The coefficient of
-      friction is already the tangent of that angle
+      friction is already the tangent of this angle, so use mu itself
     normal-is-z 3: your code uses the z component of the force as f_n. The normal force
       is the component along the contact's own normal
     normal-is-z: your code uses the normal (0, 0, 1) for every contact. Each contact has
@@ -47,15 +47,15 @@ def _(force, normal, mu):
       has its own normal
     pull-counts: your code uses the absolute value of f_n for a contact that pulls. A
       finger cannot pull, so keep the sign of f_n
-    pull-limited: your code replaces a negative f_n by 0. A finger cannot pull, so the
-      margin of a pull is below 0
+    pull-limited: your code replaces a negative f_n by 0. Keep its sign, so that a
+      contact that pulls has a margin below 0
     ratio: your result is mu - |f_t| / f_n. The margin should be a force: mu f_n - |f_t|
     ratio 2: your result is mu f_n / |f_t|. The margin should be a force: mu f_n - |f_t|
     ratio 3: your result is |f_t| / (mu f_n). The margin should be a force: mu f_n -
       |f_t|
-    mu-times-along: your code multiplies |f_t| by mu. It should multiply f_n by mu
-    normal-into-the-finger: your f_n has the wrong sign. The normal should point out of
-      the finger, into the cube
+    mu-times-along: your code multiplies |f_t| by mu. Multiply f_n by mu instead
+    normal-into-the-finger: your f_n has the wrong sign. The normal points out of the
+      finger, into the cube, so a finger that presses has a positive f_n
     margin-of-the-first: every contact in your result has the margin of the first. Each
       contact should have its own margin
     over-the-cone: your result is the distance from the surface of the cone. Do not

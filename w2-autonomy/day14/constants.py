@@ -3,91 +3,65 @@
 import numpy as np
 
 from labkit.lesson.constants import Numbers, between, same, times, turned
-from labkit.lesson.day import find_day
-from labkit.lesson.lab_module import lab_of
+from labkit.lesson.lab_module import complete_lab
 
-LAB = lab_of(find_day(14))
+LAB = complete_lab(14)
 DAY = LAB.day14_mujoco
 
 numbers = Numbers(
+    LAB, DAY,
     mu="friction: {}",
     squeeze="grip force: {} N per pad",
-    seconds="SLOW, the duration of the lift: {} s",
-    lift="height of the lift: {} m",
-    steps="steps of the simulation in 10 ms: {}",
+    SLOW="SLOW, the duration of the lift: {} s",
+    TARGET="height of the lift: {} m",
+    TICK="steps of the simulation in 10 ms: {}",
     soft="time constant of the contacts: × {}",
     size="distance of the contacts: × {}",
-    edges="edges of each friction cone: {}",
+    EDGES="edges of each friction cone: {}",
     within="half-width of the interval: {}",
-    cubes="cubes: {}",
-    seed="seed of the cubes: {}",
+    TESTED="cubes: {}",
+    CUBES_SEED="seed of the cubes: {}",
 )
 
 
-def scene(steps, soft):
-    """Return a hand with another time step and other contacts."""
-    with turned(DAY, STEP=0.01 / steps, GRIP_TIME=soft * DAY.GRIP_TIME):
-        return DAY.hand()
-
-
-@numbers.add(
-    "heaviest cube, mu 0.3, 2 N per pad", "{:.0f} g",
+@numbers.add("heaviest cube, mu 0.3, 2 N per pad", "{:.0f} g",
     mu=times(2.0, "m = 2 mu F / g"),
     squeeze=times(2.0, "m = 2 mu F / g"),
-    seconds=between(1.0, 1.02, "2 mu F / (g + 6 h / T²): the acceleration is a quarter"),
-    lift=between(0.96, 1.0, "2 mu F / (g + 6 h / T²): the acceleration doubles"),
-    steps=between(0.99, 1.01, "shorter steps change the mass by only 1 g"),
-    soft=between(0.99, 1.01, "the mass depends on the friction, not on the stiffness of the contacts"),
-)  # fmt: skip
-def heaviest(
-    mu=0.3, squeeze=2.0, seconds=LAB.SLOW, lift=LAB.TARGET, steps=DAY.TICK,
-    soft=1.0,
-):  # fmt: skip
-    """Return the mass of the heaviest cube, g."""
-    step = 0.01 / steps
-    with turned(DAY, STEP=step, TICK=steps), turned(LAB, SLOW=seconds, TARGET=lift):
-        return LAB.heaviest(*scene(steps, soft), mu, squeeze)
+    SLOW=between(1.0, 1.02, "2 mu F / (g + 6 h / T²): the acceleration is a quarter"),
+    TARGET=between(0.96, 1.0, "2 mu F / (g + 6 h / T²): the acceleration doubles"),
+    TICK=between(0.99, 1.01, "shorter steps change the mass by only 1 g"),
+    soft=between(0.99, 1.01, "the mass depends on the friction, not on the stiffness of the contacts"))
+def heaviest(mu=0.3, squeeze=2.0, soft=1.0):
+    with turned(DAY, STEP=0.01 / DAY.TICK, GRIP_TIME=soft * DAY.GRIP_TIME):
+        return LAB.heaviest(*DAY.hand(), mu, squeeze)
 
 
-@numbers.add(
-    "rank of two opposite contacts", "{:.0f}",
+@numbers.add("rank of two opposite contacts", "{:.0f}",
     mu=same("friction at a point has no moment about the line through both contacts"),
     size=same("contacts that are further apart produce no such moment either"),
-    edges=same("more edges of the same cones span the same five dimensions"),
-)  # fmt: skip
-def rank_of_two(mu=0.5, size=1.0, edges=LAB.EDGES):
-    """Return the rank of the wrenches of two opposite contacts."""
+    EDGES=same("more edges of the same cones span the same five dimensions"))
+def rank_of_two(mu=0.5, size=1.0):
     places = size * np.array(LAB.GRASPS["two, opposite"])
-    with turned(LAB, EDGES=edges, GRASPS={"two": places}):
+    with turned(LAB, GRASPS={"two": places}):
         return np.linalg.matrix_rank(LAB.wrenches("two", mu))
 
 
-@numbers.add(
-    "cubes for a rate of 0.5 to within 0.05", "{:.0f}",
-    within=between(0.24, 0.26, "n = 1.96² / 4 / 0.05² - 1.96²"),
-)  # fmt: skip
+@numbers.add("cubes for a rate of 0.5 to within 0.05", "{:.0f}",
+    within=between(0.24, 0.26, "n = 1.96² / 4 / 0.05² - 1.96²"))
 def needed(within=0.05):
-    """Return the number of cubes."""
     return LAB.needed(within)
 
 
-@numbers.add(
-    "lower end of the interval, 60 of 60 held", "{:.3f}",
-    cubes=between(1.02, 1.04, "n / (n + 1.96²): the distance to 1 halves"),
-)  # fmt: skip
-def low_end(cubes=LAB.TESTED):
-    """Return the lower end of the interval if all cubes are held."""
-    return LAB.success_rate(np.ones(cubes, bool))[1]
+@numbers.add("lower end of the interval, 60 of 60 held", "{:.3f}",
+    TESTED=between(1.02, 1.04, "n / (n + 1.96²): the distance to 1 halves"))
+def low_end():
+    return LAB.success_rate(np.ones(LAB.TESTED, bool))[1]
 
 
-@numbers.add(
-    "slippery cubes that are too heavy on paper", "{:.0f} of 60",
+@numbers.add("slippery cubes that are too heavy on paper", "{:.0f} of 60",
     squeeze=between(0.3, 0.5, "twice the grip force holds twice the mass"),
     mu=between(0.3, 0.5, "twice the friction holds twice the mass"),
-    seed=between(0.75, 1.3, "other cubes of the same distribution", to=14),
-)  # fmt: skip
-def dropped(squeeze=1.6, mu=1.0, seed=LAB.CUBES_SEED):
-    """Return how many cubes are heavier than 2 mu F / g."""
-    with turned(LAB, CUBES_SEED=seed):
-        cubes, _ = LAB.unseen(LAB.SLIPPERY)
+    CUBES_SEED=between(0.75, 1.3, "other cubes of the same distribution", to=14))
+def dropped(squeeze=1.6, mu=1.0):
+    cubes, _ = LAB.unseen(LAB.SLIPPERY)
     return sum(one.mass > 2 * mu * one.mu * squeeze / LAB.G for one in cubes)

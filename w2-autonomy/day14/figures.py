@@ -37,6 +37,7 @@ def touched(figure: Figure) -> None:
     theta = lab.learn(model, data, lab.SEED)
     for axes, mu in zip((held, slips), GRIPS, strict=True):
         _grip(axes, model, data, theta, mu)
+    held.set_ylabel("z, mm")
     _tried(tries, model, data, theta)
 
 

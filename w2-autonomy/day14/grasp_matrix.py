@@ -30,8 +30,8 @@ def _(points, centre):
     moment-sign: your moments have the wrong sign. The lever arm should be p - c, and
       its skew-symmetric matrix should not be transposed
     halves-swapped: your code swaps force and moment. A wrench should be (moment, force)
-    arm-on-the-diagonal: your code puts p - c on the diagonal, but a cross product needs
-      the skew-symmetric matrix
+    arm-on-the-diagonal: your code puts p - c on the diagonal. Use the skew-symmetric
+      matrix of p - c instead, which computes the cross product
     added-up: your code adds the blocks of all points. Each point should have three
       columns of its own
     components-together: your code sorts the columns by component, with all x first. The
@@ -42,8 +42,8 @@ def _(points, centre):
       the argument `centre`
     forces-negative: your forces have the wrong sign. They should act on the cube, not
       on the fingers
-    forces-over-n: your code divides the forces by the number of points. Do not divide
-      them
+    forces-over-n: your code divides the forces by the number of points. Omit this
+      division
     """
     arms = points - centre
     one = np.eye(3)

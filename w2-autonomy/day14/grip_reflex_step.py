@@ -83,34 +83,34 @@ def _(finger_position, force, normal, mu, fraction, step):
     at-the-line: your pads also close if a margin is equal to `fraction` times mu f_n.
       Close them only if a margin is smaller
     one-minus-the-share: your code compares the margin with (1 - fraction) mu f_n.
-      Compare it with `fraction` times mu f_n
+      Compare it with `fraction` times mu f_n instead
     high-for-low: your limit for the finger position is HIGH[4], so the pads open. Use
-      LOW[4]
+      LOW[4] instead
     smaller-for-larger: your code returns the smaller of the new position and LOW[4].
-      Return the larger of the two
+      Return the larger of the two instead
     always: your pads close at every call. Close them only if a contact nearly slips
     share-in-newtons: your code compares the margin with `fraction` itself. The margin
       is in newtons, so multiply `fraction` by mu f_n
     share-of-the-force: your code compares the margin with a fraction of the norm of the
-      force. Compare it with `fraction` times mu f_n
+      force. Compare it with `fraction` times mu f_n instead
     share-of-the-force 2: your code compares the margin with `fraction` times mu times
       the norm of the force. Use f_n, the component along the normal, instead of the
       norm
     stopped-at-0: your finger position stops at 0. It should stop at LOW[4]
     stopped-too-early: your code leaves out a step that would go beyond LOW[4]. The step
       should end at LOW[4]
-    outside-only: your pads close only if a margin is below 0, but then the contact
-      slips already
+    outside-only: your pads close only if a margin is below 0, when the contact already
+      slips. Close them if a margin is below `fraction` times mu f_n
     the-other-way: your code reverses the comparison, so the pads close if a margin is
-      large. Close them if a margin is small
+      large. Close them if a margin is smaller than `fraction` times mu f_n
     closes-to-the-limit: your pads close to the limit at once. Subtract one step per
       call
     a-step-a-contact: your code subtracts one step for each contact that nearly slips.
       Subtract only one step per call
-    sum-of-margins: your code compares the sum of the margins with the limit. Compare
-      each margin, because one contact that nearly slips is enough
-    mean-of-margins: your code compares the mean of the margins with the limit. Compare
-      each margin, because one contact that nearly slips is enough
+    sum-of-margins: your code compares the sum of the margins with `fraction`. Compare
+      each margin with `fraction` times its own mu f_n
+    mean-of-margins: your code compares the mean of the margins with `fraction` times
+      the mean of mu f_n. Compare each margin with `fraction` times its own mu f_n
     """
     margin = cone_margin(force, normal, mu)
     press = np.sum(force * normal, axis=1)

@@ -52,27 +52,27 @@ def fold(yaw, period=QUARTER):
 
 @row.wrongs
 def _(T_seen, noise):
-    """not-folded: your code does not reduce the yaw. A cube looks the same after a
-      rotation by pi/2, so reduce the yaw modulo pi/2
-    folded-to-0-to-90: your code reduces the yaw to [0, pi/2). It should be in [-pi/4,
-      pi/4)
-    folded-by-pi: your code reduces the yaw modulo pi, but a cube already looks the same
-      after pi/2
-    folded-by-pi-over-4: your code reduces the yaw modulo pi/4, but a cube looks the
-      same only after pi/2
-    folded-once: your code adds or subtracts pi/2 at most once, but the cube may be
-      rotated further than that
+    """not-folded: your code does not reduce the yaw modulo pi/2. A cube looks the same
+      after a rotation by pi/2, so reduce the yaw to [-pi/4, pi/4)
+    folded-to-0-to-90: your code reduces the yaw to [0, pi/2). The yaw should be in
+      [-pi/4, pi/4)
+    folded-by-pi: your code reduces the yaw modulo pi. Reduce it modulo pi/2, because a
+      cube already looks the same after a rotation by pi/2
+    folded-by-pi-over-4: your code reduces the yaw modulo pi/4. Reduce it modulo pi/2,
+      because a cube looks the same only after a rotation by pi/2
+    folded-once: your code adds or subtracts pi/2 at most once. Use % or np.mod instead,
+      because the cube may be rotated by more than pi/2
     noise-after-the-fold: your code adds the noise after the reduction, so the yaw can
       leave [-pi/4, pi/4). Add the noise first
     fmod: your code uses np.fmod, whose result is negative for a negative argument. Use
-      % or np.mod
-    transposed: your yaw has the wrong sign, as if it came from the transposed rotation
-      matrix. Use the first column of R
-    arccosine: your yaw is arccos(R[0, 0]), which has no sign. Use both entries of the
-      first column
+      % or np.mod instead
+    transposed: your yaw has the wrong sign, as with the transposed rotation matrix. Use
+      np.arctan2(R[1, 0], R[0, 0])
+    arccosine: your yaw is arccos(R[0, 0]), which is never negative. Use np.arctan2(R[1,
+      0], R[0, 0])
     arcsine: your yaw is arcsin(R[1, 0]), which covers only the range from -pi/2 to
-      pi/2. Use both entries of the first column
-    noise-in-the-cubes-axes: your code rotates the noise into the frame of the cube. Add
+      pi/2. Use np.arctan2(R[1, 0], R[0, 0])
+    noise-in-the-cubes-axes: your code adds the noise along the axes of the cube. Add
       the noise to x and y in the world frame
     x-and-y-swapped: your code swaps x and y. The order should be (x, y, yaw)
     yaw-first: your yaw comes first. The order should be (x, y, yaw)

@@ -26,22 +26,25 @@ def wilson(k, n, z=1.96, moved=True, inside=True, divided=True):
 @row.wrongs
 def _(success):
     """plain: your function returns the Wald interval p +- 1.96 sqrt(p (1 - p) / n),
-      whose width is 0 for 8 successes of 8. Use Day 12's wilson_interval
+      whose width is 0 for 8 successes in 8 trials. Use Day 12's wilson_interval instead
     plain-to-0-and-1: your function returns the Wald interval, clamped to 0 and 1. Use
-      Day 12's wilson_interval
+      Day 12's wilson_interval instead
     middle-for-rate: your rate is the centre of the interval. It should be the fraction
       of successes
     order: your interval comes first. The order should be (rate, low, high)
     ends-swapped: your code swaps the two ends of the interval. The order should be
       (rate, low, high)
     half-width: your last two results are the distances of the ends from the rate.
-      Return the ends themselves
+      Return the ends themselves instead
     failures: your code computes the interval from the number of failures. Use the
-      number of successes
-    one-sided: your interval uses 1.645, which gives 90 %. A 95 % interval needs 1.96
-    ninety-nine: your interval uses 2.576, which gives 99 %. A 95 % interval needs 1.96
-    n-less-one: your code divides the results by n - 1. Divide by n
-    per-cent: your three results are in per cent. Return fractions
+      number of successes instead
+    one-sided: your code uses z = 1.645, which gives a 90 % interval. Use 1.96 for a 95
+      % interval
+    ninety-nine: your code uses z = 2.576, which gives a 99 % interval. Use 1.96 for a
+      95 % interval
+    n-less-one: your code divides the rate and both ends of its interval by n - 1.
+      Divide them by n instead, the number of trials
+    per-cent: your three results are in per cent. Return fractions instead
     """
     won = np.asarray(success, float)
     n = len(won)

@@ -62,7 +62,7 @@ for slug, says, blocks in (
      "your dry friction is -1 for a joint at rest, but the sign of 0 is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
     ("sign-at-rest-of-qdd", "your dry friction has the sign of qdd for a joint at "
-                            "rest. Use the sign of qd, which is 0 there",
+                            "rest. Use the sign of qd, which is 0 at rest",
      lambda qd, qdd: (qdd, qd, np.where(qd == 0.0, np.sign(qdd), np.sign(qd)))),
     ("slow-left-out", "your dry friction is 0 for a slow joint, but the magnitude of "
                       "dry friction does not depend on the velocity",

@@ -74,30 +74,32 @@ def below(corner, T):
 
 
 for slug, says, other in (
-    ("bracket-forgotten", "your `A` omits the term ad(V) S qd, which is needed "
-                          "because the preceding joints move the axis of a joint",
+    ("bracket-forgotten", "your `A` omits the term ad(V) S qd. This term is needed "
+                          "because the preceding joints move the axis of joint i",
                           {"bracket": 0.0}),
-    ("bracket-sign", "your `A` contains ad(S) V qd instead of ad(V) S qd, which is "
-                     "its negative",
+    ("bracket-sign", "your `A` contains ad(S) V qd, which is the negative of ad(V) S "
+                     "qd. Use ad(V) S qd",
      {"bracket": -1.0}),
-    ("pose-not-inverted", "your code transforms V and A with Ad(T), but the adjoint "
-                          "from the world to the link is Ad(T^-1)", {"into": adjoint}),
-    ("offset-left-out", "your code rotates the twists V and A into the link frame, "
-                        "but it does not move their reference point to the link's "
-                        "origin. Your Ad(T^-1) omits the lower left block -R^T [p]",
+    ("pose-not-inverted", "your code transforms V and A with Ad(T). Use Ad(T^-1), "
+                          "which maps from the world frame to the link frame",
+     {"into": adjoint}),
+    ("offset-left-out", "the lower left block of your Ad(T^-1) is 0. It should be "
+                        "-R^T [p], which moves the reference point of V and A to the "
+                        "link's origin",
      {"into": lambda T: np.kron(np.eye(2), T[:3, :3].T)}),
-    ("in-world-axes", "your code does not transform V and A into the link frame. The "
-                      "parameters of a link are expressed in its own frame, about "
-                      "its origin",
+    ("in-world-axes", "your code does not transform V and A into the link frame. "
+                      "Transform both, because the parameters of a link are expressed "
+                      "in its own frame, about its origin",
      {"into": lambda T: np.eye(6)}),
     ("wrench-back-with-the-inverse", "your code transforms the wrench back with "
                                      "X^-1, as if it were a twist. A wrench "
                                      "transforms with X^T, because the power is the "
                                      "same in both frames",
                                      {"back": np.linalg.inv}),
-    ("wrench-not-carried-back", "your code rotates the wrench to the world frame, "
-                                "but it does not move the reference point of the "
-                                "moment to the world's origin",
+    ("wrench-not-carried-back", "your code only rotates the wrench to the world "
+                                "frame. Multiply the wrench by X^T, which also moves "
+                                "the reference point of the moment to the world's "
+                                "origin",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),
     ("every-joint-feels-every-link", "each link in your matrix has entries in the rows "
                                      "of all joints, but a link causes no torque at "
@@ -109,17 +111,17 @@ for slug, says, other in (
     ("cut-late", "your code also fills the row of the joint after each link, but a "
                  "link causes no torque at that joint",
                  {"felt": lambda i: slice(0, i + 2)}),
-    ("later-links-only", "in your matrix, link i has entries in the rows of its own "
-                         "joint and of all distal joints. These entries belong in "
-                         "the rows of its own joint and of all proximal joints",
+    ("later-links-only", "your matrix has the entries of link i in the rows of joints "
+                         "i to 7. They belong in the rows of joints 1 to i",
      {"felt": lambda i: slice(i, 7)}),
     ("own-link-only", "each row of your matrix has entries only for the joint's own "
                       "link, but a joint also carries all links distal to it",
                       {"felt": lambda i: slice(i, i + 1)}),
     ("last-link-missing", "your columns for the last link are 0. Does your loop end "
                           "one link too early?", {"links": 6}),
-    ("pose-of-the-link-before", "each link in your code uses the pose of the link "
-                                "before it. T_links[0] is already the pose of link1",
+    ("pose-of-the-link-before", "for each link, your code uses the pose of the "
+                                "previous link. T_links[0] is already the pose of "
+                                "link1",
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
     ("pose-on-the-link-before", "your code uses the pose of each link relative to the "
      "previous link. T_links contains poses relative to the world, so use them "
@@ -141,19 +143,19 @@ for slug, says, other in (
     ("gravity-forgotten", "your code does not use the argument g. Begin A with the "
                           "acceleration of the base, which is -g",
                           {"gravity": 0.0}),
-    ("acceleration-not-turned", "your code transforms V into the link frame, but not "
-                                "A. Transform both",
+    ("acceleration-not-turned", "your code transforms V into the link frame, but it "
+                                "leaves A in the world frame. Transform both",
      {"both": False}),
     ("twist-too-late", "your code uses V before it adds S qd of joint i, so V is the "
-                       "twist of the previous link", {"late": True}),
+                       "twist of the previous link. Add S qd first", {"late": True}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(walk, **other))
 
 
 @row.wrong
 def added_up_in_the_links(J, T, qd, qdd, g):
-    """your code sums V and A in the link frames, but the sum up to the previous link is
-    expressed in another frame. Sum both in the world frame"""
+    """your code sums V and A in the link frames, so it adds vectors that are expressed
+    in different frames. Sum both in the world frame"""
     V = np.zeros(6)
     A = np.append(np.zeros(3), -g)
     Y = np.zeros((7, 70))
@@ -168,8 +170,8 @@ def added_up_in_the_links(J, T, qd, qdd, g):
 
 @row.wrong
 def grouped_by_number(J_space, T_links, qd, qdd, g):
-    """your columns are grouped by parameter, with all masses first. Group them by link,
-    ten columns each"""
+    """your columns are grouped by parameter, with all masses first. Group the columns
+    by link, ten columns each"""
     Y = arm_regressor(J_space, T_links, qd, qdd, g).reshape(7, 7, 10)
     return np.swapaxes(Y, 1, 2).reshape(7, 70)
 

@@ -10,35 +10,35 @@ import mujoco
 import numpy as np
 
 from labkit.lesson.constants import Numbers, between, same, times, turned
-from labkit.lesson.day import find_day
-from labkit.lesson.lab_module import lab_of
+from labkit.lesson.lab_module import complete_lab
 from robo47 import identification, panda
 
-LAB = lab_of(find_day(8))
+LAB = complete_lab(8)
 DAY = LAB.day8_mujoco
 MODEL = panda.load("panda_nohand", drive="torque")
 ARM = panda.arm(MODEL)
 
 numbers = Numbers(
+    LAB, DAY,
     reach="amplitude of the pendulum: {} rad",
     second="fraction of a second sine: {}",
-    rtol="RTOL: {}",
-    cut="CUT: {}",
+    RTOL="RTOL: {}",
+    CUT="CUT: {}",
     metre="units of length in a metre: {}",
     n="samples: {}",
-    seed="seed of the states: {}",
+    ROBOT_SEED="seed of the states: {}",
     speed="velocities of the states: × {}",
     swing="amplitude of the swing: × {}",
-    noise="NOISE: {} N m",
-    noise_seed="NOISE_SEED: {}",
+    NOISE="NOISE: {} N m",
+    NOISE_SEED="NOISE_SEED: {}",
     slow="SLOW: {} rad/s",
-    masses="largest difference of a mass from the file: {}",
+    MASS="largest difference of a mass from the file: {}",
     friction="dry friction: × {}",
-    wait="WAIT: {} s",
+    WAIT="WAIT: {} s",
     timeconst="solref[0] of the friction: {} s",
     dmin="solimp[0] of the friction: {}",
     dmax="solimp[1] of the friction: {}",
-    springs="OMEGA of the springs that hold the arm: {} rad/s",
+    OMEGA="OMEGA of the springs that hold the arm: {} rad/s",
     step="time step: {} s",
     poses="poses: {}",
     qdd="acceleration: {} rad/s²",
@@ -46,15 +46,12 @@ numbers = Numbers(
 )
 
 
-@numbers.add(
-    "condition number of the pendulum, one sine of 0.1 rad", "{:,.0f}",
+@numbers.add("condition number of the pendulum, one sine of 0.1 rad", "{:,.0f}",
     reach=times(1 / 8, "q'' = -q, and sin q differs from q by q³/6", within=0.1),
     second=between(0, 0.001, "with a second frequency q'' = -q no longer holds", to=0.2),
-    rtol=same("all five singular values are far above the threshold"),
-)  # fmt: skip
-def pendulum(reach=0.1, second=0.0, rtol=LAB.RTOL):
-    """Return the condition number of the pendulum's motion."""
-    return LAB.rank_and_condition(LAB.pendulum(reach, second), rtol)[1]
+    RTOL=same("all five singular values are far above the threshold"))
+def pendulum(reach=0.1, second=0.0):
+    return LAB.rank_and_condition(LAB.pendulum(reach, second), LAB.RTOL)[1]
 
 
 def regressor(motion):
@@ -71,50 +68,36 @@ def anywhere(seed, n, speed):
     return at, regressor(at)
 
 
-@numbers.add(
-    "rank of the 70 columns of the links", "{:.0f}",
+@numbers.add("rank of the 70 columns of the links", "{:.0f}",
     n=same("nine random states already give this rank"),
-    seed=same("the axes of the arm determine the rank, not the states", to=48),
+    ROBOT_SEED=same("the axes of the arm determine the rank, not the states", to=48),
     speed=same("the axes of the arm are the same"),
     metre=same("scaling a column does not change the rank"),
-    rtol=same("the other singular values are rounding errors, at most 1e-14 of the largest"),
-)  # fmt: skip
-def links_show(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.RTOL):
-    """Return the rank."""
-    Y = anywhere(seed, n, speed)[1][..., :70].reshape(-1, 70)
-    return LAB.rank_and_condition(Y / LAB.lengths(metre)[:70], rtol)[0]
+    RTOL=same("the other singular values are rounding errors, at most 1e-14 of the largest"))
+def links_show(n=LAB.TRIALS, speed=1.0, metre=1.0):
+    Y = anywhere(LAB.ROBOT_SEED, n, speed)[1][..., :70].reshape(-1, 70)
+    return LAB.rank_and_condition(Y / LAB.lengths(metre)[:70], LAB.RTOL)[0]
 
 
-@numbers.add(
-    "condition number of random states, with motors", "{:.0f}",
+@numbers.add("condition number of random states, with motors", "{:.0f}",
     n=between(0.8, 1.1, "more states of the same kind"),
-    seed=between(0.7, 1.4, "other states of the same kind", to=48),
-    speed=between(1.05, 2.0, "the largest singular value grows more than the "
-                  "smallest, because its inertial terms contain squares of the velocity"),
-    metre=between(0.3, 0.8, "the largest singular value belongs to the links, whose "
-                  "columns for m c and I shrink; the smallest belongs to viscous "
-                  "friction, whose column stays the same"),
-    rtol=same("no singular value lies between 1e-14 and 1 / 230 of the largest"),
-)  # fmt: skip
-def condition(n=LAB.TRIALS, seed=LAB.ROBOT_SEED, speed=1.0, metre=1.0, rtol=LAB.RTOL):
-    """Return the condition number of 100 random states."""
-    Y = anywhere(seed, n, speed)[1].reshape(-1, 91)
-    return LAB.rank_and_condition(Y / LAB.lengths(metre), rtol)[1]
+    ROBOT_SEED=between(0.7, 1.4, "other states of the same kind", to=48),
+    speed=between(1.05, 2.0, "the largest singular value grows more than the smallest, because its inertial terms contain squares of the velocity"),
+    metre=between(0.3, 0.8, "the largest singular value belongs to the links, whose columns for m c and I shrink; the smallest belongs to viscous friction, whose column stays the same"),
+    RTOL=same("no singular value lies between 1e-14 and 1 / 230 of the largest"))
+def condition(n=LAB.TRIALS, speed=1.0, metre=1.0):
+    Y = anywhere(LAB.ROBOT_SEED, n, speed)[1].reshape(-1, 91)
+    return LAB.rank_and_condition(Y / LAB.lengths(metre), LAB.RTOL)[1]
 
 
-@numbers.add(
-    "condition number of Day 5's swing", "{:,.0f}",
-    swing=between(1 / 200, 1 / 100, "it falls with about the seventh power of the "
-                  "amplitude, not with the third as for the pendulum"),
-    metre=between(3.0, 10.0, "columns in kg m² shrink to 1/100, so the condition "
-                  "number depends on the unit", to=10.0),
-    rtol=same("no singular value is near this threshold; those below it are rounding errors"),
-)  # fmt: skip
-def swing_condition(swing=1.0, metre=1.0, rtol=LAB.RTOL):
-    """Return the condition number of the swing, to three digits."""
+@numbers.add("condition number of Day 5's swing", "{:,.0f}",
+    swing=between(1 / 200, 1 / 100, "it falls with about the seventh power of the amplitude, not with the third as for the pendulum"),
+    metre=between(3.0, 10.0, "columns in kg m² shrink to 1/100, so the condition number depends on the unit", to=10.0),
+    RTOL=same("no singular value is near this threshold; those below it are rounding errors"))
+def swing_condition(swing=1.0, metre=1.0):
     motion, Y = swung(swing)
     fast = np.abs(motion.qd) > LAB.SLOW
-    return float(f"{LAB.rank_and_condition(Y[fast] / LAB.lengths(metre), rtol)[1]:.3g}")
+    return float(f"{LAB.rank_and_condition(Y[fast] / LAB.lengths(metre), LAB.RTOL)[1]:.3g}")
 
 
 @cache
@@ -165,72 +148,53 @@ def off_elsewhere(moved, drawn, secret, rtol, metre=1.0, slow=LAB.SLOW):
     return LAB.rms(Y_new[new] / unit @ phi - LAB.mujoco_torques(secret, at)[new])
 
 
-@numbers.add(
-    "test error of the swing's fit, truncated, in metres", "{:.2f} N m",
-    cut=between(0.9, 1.1, "a few more combinations are truncated; the bias is similar"),
-    metre=between(0.2, 0.4, "columns in kg m² shrink to 1/100, so other combinations "
-                  "are truncated", to=10.0),
-    noise=between(0.9, 1.3, "without noise it is 4.8, which is the bias"),
-    noise_seed=between(0.7, 1.3, "different noise is added to the same bias", to=48),
-    swing=between(0.8, 1.0, "more combinations are kept, and the others are still set "
-                  "to 0"),
-    masses=between(0.8, 1.2, "truncated combinations are set to 0, not to the file's "
-                   "values"),
-)  # fmt: skip
-def cut_fit(cut=LAB.CUT, metre=1.0, noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED,
-            swing=1.0, masses=DAY.MASS):  # fmt: skip
-    """Return the test error of the truncated fit to the swing."""
-    drawn = noise * np.random.default_rng(noise_seed).normal(size=(200, 7))
-    return off_elsewhere(swung(swing), drawn, robot(masses), cut, metre)
+@numbers.add("test error of the swing's fit, truncated, in metres", "{:.2f} N m",
+    CUT=between(0.9, 1.1, "a few more combinations are truncated; the bias is similar"),
+    metre=between(0.2, 0.4, "columns in kg m² shrink to 1/100, so other combinations are truncated", to=10.0),
+    NOISE=between(0.9, 1.3, "without noise it is 4.8, which is the bias"),
+    NOISE_SEED=between(0.7, 1.3, "different noise is added to the same bias", to=48),
+    swing=between(0.8, 1.0, "more combinations are kept, and the others are still set to 0"),
+    MASS=between(0.8, 1.2, "truncated combinations are set to 0, not to the file's values"))
+def cut_fit(metre=1.0, swing=1.0):
+    drawn = LAB.NOISE * np.random.default_rng(LAB.NOISE_SEED).normal(size=(200, 7))
+    return off_elsewhere(swung(swing), drawn, robot(DAY.MASS), LAB.CUT, metre)
 
 
-@numbers.add(
-    "test error of the excitation's fit", "{:.2f} N m",
-    noise=times(2.0, "the noise is the only cause, and the fit is linear"),
+@numbers.add("test error of the excitation's fit", "{:.2f} N m",
+    NOISE=times(2.0, "the noise is the only cause, and the fit is linear"),
     n=between(0.55, 0.85, "1/√2 for twice the samples, with other noise", to=400),
-    noise_seed=between(0.5, 1.5, "different noise", to=48),
+    NOISE_SEED=between(0.5, 1.5, "different noise", to=48),
     metre=same("without truncation the unit cancels"),
-    rtol=same("no singular value is near this threshold"),
+    RTOL=same("no singular value is near this threshold"),
     slow=between(0.8, 1.2, "fewer rows remain, and none of them is wrong"),
-    masses=same("the fit does not use the model file"),
-    friction=same("dry friction has its own columns in Y"),
-)  # fmt: skip
-def excited_fit(
-    noise=LAB.NOISE, n=200, noise_seed=LAB.NOISE_SEED, metre=1.0, rtol=LAB.RTOL,
-    slow=LAB.SLOW, masses=DAY.MASS, friction=1.0,
-):  # fmt: skip
-    """Return the test error of the fit to the excitation."""
-    rng = np.random.default_rng(noise_seed)
+    MASS=same("the fit does not use the model file"),
+    friction=same("dry friction has its own columns in Y"))
+def excited_fit(n=200, metre=1.0, friction=1.0, slow=LAB.SLOW):
+    rng = np.random.default_rng(LAB.NOISE_SEED)
     rng.normal(size=(200, 7))  # the lab's swing has these
-    drawn = noise * rng.normal(size=(n, 7))
-    secret = robot(masses, friction)
-    return off_elsewhere(excited(n), drawn, secret, rtol, metre, slow)
+    drawn = LAB.NOISE * rng.normal(size=(n, 7))
+    secret = robot(DAY.MASS, friction)
+    return off_elsewhere(excited(n), drawn, secret, LAB.RTOL, metre, slow)
 
 
-@numbers.add(
-    "test error of the model file's parameters", "{:.2f} N m",
-    masses=between(1.05, 2.0, "the differences of the masses are twice as large"),
+@numbers.add("test error of the model file's parameters", "{:.2f} N m",
+    MASS=between(1.05, 2.0, "the differences of the masses are twice as large"),
     friction=between(1.05, 2.0, "the file contains no dry friction"),
-    noise=same("nothing is fitted, and the test data have no noise"),
-)  # fmt: skip
-def file_off(masses=DAY.MASS, friction=1.0, noise=LAB.NOISE):
-    """Return the test error of the model file."""
+    NOISE=same("nothing is fitted, and the test data have no noise"))
+def file_off(friction=1.0):
     at, Y = anywhere(LAB.ROBOT_SEED, LAB.TRIALS, 1.0)
     new = np.abs(at.qd) > LAB.SLOW
-    truth = LAB.mujoco_torques(robot(masses, friction), at)
+    truth = LAB.mujoco_torques(robot(DAY.MASS, friction), at)
     return LAB.rms((Y @ DAY.numbers(ARM) - truth)[new])
 
 
-@numbers.add(
-    "b, which shifts the sign of MuJoCo's dry friction", "{:.0f} 1/s",
+@numbers.add("b, which shifts the sign of MuJoCo's dry friction", "{:.0f} 1/s",
     timeconst=times(0.5, "b = 2 / (solimp[1] solref[0])"),
     dmax=times(1 / 0.95, "b = 2 / (solimp[1] solref[0])", to=0.9025),
     dmin=same("b depends only on solimp[1] and solref[0]", to=0.45),
     qdd=same("with twice the acceleration the sign changes at twice the speed"),
-    dry=same("the sign does not depend on the magnitude"),
-)  # fmt: skip
+    dry=same("the sign does not depend on the magnitude"))
 def sign_rule(timeconst=0.02, dmax=0.95, dmin=0.9, qdd=5.0, dry=0.5):
-    """Return acceleration over speed where dry friction changes its sign."""
     model = panda.load("panda_nohand", drive="torque")
     model.dof_solref[0] = timeconst, 1.0
     model.dof_solimp[0, :2] = dmin, dmax
@@ -255,38 +219,28 @@ def holds(load, side, n, *how):
     return np.swapaxes([held(load, side, i, *how) for i in range(n)], 0, 1)
 
 
-@numbers.add(
-    "error of the mass, one from either side, no noise", "{:.0f} g",
-    wait=between(0.0, 0.2, "dry friction creeps, and after 4 s hardly any is left"),
+@numbers.add("error of the mass, one from either side, no noise", "{:.0f} g",
+    WAIT=between(0.0, 0.2, "dry friction creeps, and after 4 s hardly any is left"),
     timeconst=between(0.0, 0.2, "b is halved, so friction creeps twice as fast"),
     dmin=between(6.0, 10.0, "with solimp[0] close to 1 friction hardly creeps", to=0.999),
     friction=times(2.0, "twice the friction leaves twice the error", within=0.1),
-    springs=between(-0.2, 0.2, "the springs are four times as stiff, so friction creeps "
-                    "faster"),
-    step=times(1.0, "creep does not depend on the time step", within=0.05, to=0.001),
-)  # fmt: skip
-def either_side(
-    wait=LAB.WAIT, friction=1.0, timeconst=0.02, dmin=0.9, step=0.002, springs=DAY.OMEGA
-):
-    """Return the error of the mass, held from one side without load, else the other."""
-    how = 5, wait, friction, timeconst, dmin, step, springs
+    OMEGA=between(-0.2, 0.2, "the springs are four times as stiff, so friction creeps faster"),
+    step=times(1.0, "creep does not depend on the time step", within=0.05, to=0.001))
+def either_side(friction=1.0, timeconst=0.02, dmin=0.9, step=0.002):
+    how = 5, LAB.WAIT, friction, timeconst, dmin, step, DAY.OMEGA
     q, full = holds(LAB.LOAD, -1.0, *how)
     load, _ = LAB.weighed(ARM, q, full - holds(0.0, 1.0, *how)[1])
     return 1000 * (load[0] - LAB.LOAD)
 
 
-@numbers.add(
-    "sigma of the load, each from both sides", "{:.0f} g",
-    noise=times(2.0, "the residual is noise, with hardly any friction", within=0.05),
-    noise_seed=between(0.7, 1.4, "sigma is estimated from 35 torques only", to=48),
-    poses=between(0.6, 0.85, "1/√2 for twice as many poses; the rest is chance, because "
-                  "sigma is estimated from the residual"),
-)  # fmt: skip
-def load_sigma(noise=LAB.NOISE, noise_seed=LAB.NOISE_SEED, poses=5):
-    """Return the sigma of the mass that the lab finds."""
-    rng = np.random.default_rng(noise_seed)
+@numbers.add("sigma of the load, each from both sides", "{:.0f} g",
+    NOISE=times(2.0, "the residual is noise, with hardly any friction", within=0.05),
+    NOISE_SEED=between(0.7, 1.4, "sigma is estimated from 35 torques only", to=48),
+    poses=between(0.6, 0.85, "1/√2 for twice as many poses; the rest is chance, because sigma is estimated from the residual"))
+def load_sigma(poses=5):
+    rng = np.random.default_rng(LAB.NOISE_SEED)
     rng.normal(size=(600, 7))  # the lab's three motions have these
-    off = noise * rng.normal(size=(2, 2, poses, 7))  # empty and loaded, by side
+    off = LAB.NOISE * rng.normal(size=(2, 2, poses, 7))  # empty and loaded, by side
     how = poses, LAB.WAIT, 1.0, 0.02, 0.9, 0.002, DAY.OMEGA
     empty, full = (
         [holds(m, side, *how) for side in (1.0, -1.0)] for m in (0, LAB.LOAD)

@@ -52,22 +52,22 @@ def _(J_site, R_site, extra, g):
       poses
     first-hold-only: your code uses only the first pose. One pose does not determine all
       four parameters, so stack the rows of all poses
-    last-hold-only: your code uses only the last pose, because each pass of the loop
-      overwrites the rows of the previous pose. Stack the rows of all poses
+    last-hold-only: your code uses only the last pose. Does each pass of your loop
+      overwrite the rows of the previous pose? Stack the rows of all poses
     extra-by-joint: your code flattens the torques joint by joint, but it stacks the
       rows of the regressor pose by pose. Use the same order for both
     reshaped: your code reshapes J_site to (k, 7, 6), which keeps the order of its
       entries. To transpose each matrix, swap the last two axes
     wrenches-first: your code converts each pose's torques to a wrench and fits the
-      wrenches. The torques are measured, so fit the torques
-    cut-too-high: your code leaves out small singular values, but if the poses differ
-      only slightly, these values determine a part of m c. Keep them
+      wrenches. Fit the torques themselves, because they are the measured quantities
+    cut-too-high: your code omits small singular values. Keep these values, because they
+      determine a part of m c if the poses differ only slightly
     solutions-averaged: your code solves each pose alone and averages the solutions. One
       pose does not determine all four parameters, so stack the rows of all poses
     weight-for-mass: your first result is the weight in newtons. The column for m should
       contain g itself, not its unit vector
-    centre-for-first-moment: your last three results are c. Return m c, because the
-      equations are linear in m c
+    centre-for-first-moment: your last three results are the centre of mass c. Return
+      the first moment m c, because the equations are linear in m c
     """
     Y = rows(J_site, R_site, g)
     right = solved(Y, extra)
@@ -94,7 +94,7 @@ def _(J_site, R_site, extra, g):
 
 @row.wrongs
 def _(J_site, R_site, extra, g):
-    """g-not-turned-back: your code multiplies g by R. Multiply it by R^T to express g
+    """g-not-turned-back: your code multiplies g by R. Multiply g by R^T to express it
       in the hand frame
     moment-in-the-hand: your moment is expressed in the hand frame, but J_site requires
       a moment in the world frame. Multiply your moment by R

@@ -27,16 +27,16 @@ def _(rng):
 
 @row.wrongs
 def _(V, Vd):
-    """ad-not-transposed: your velocity product uses -ad(V) instead of -ad(V)^T. A
-      wrench transforms with the transpose
-    ad-not-transposed-plus: your velocity product uses +ad(V) instead of -ad(V)^T
-    unit-vector-not-reset: your code does not reset the unit vector between columns, so
-      the entries that were set to 1 for earlier columns remain. Column k is therefore
-      the sum of the wrenches of the first k parameters
+    """ad-not-transposed: your velocity product is -ad(V) G V. It should be -ad(V)^T G
+      V, because the momentum G V transforms like a wrench
+    ad-not-transposed-plus: your velocity product is ad(V) G V. It should be -ad(V)^T G
+      V
+    unit-vector-not-reset: your code does not reset the unit vector phi between columns,
+      so column k is the sum of the wrenches of the first k parameters
     gravity-added: your code adds gravity to Vd, but Vd already includes gravity as the
       acceleration -g of the base
-    first-moments-empty: your columns for m c are 0. Their unit vectors have m = 0, so
-      neither multiply nor divide phi[1:4] by m
+    first-moments-empty: your columns for m c are 0. In the unit vectors of these
+      columns m is 0, so neither multiply nor divide phi[1:4] by m
     """
     right = link_regressor(V, Vd)
     X = ad(V)

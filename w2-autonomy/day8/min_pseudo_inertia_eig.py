@@ -46,24 +46,24 @@ def doubled(I):  # noqa: E741
 
 
 for slug, says, code in (
-    ("only-the-inertia", "your result is the smallest eigenvalue of I. The "
-                         "pseudo-inertia contains (tr(I)/2) E - I instead of I, "
-                         "where E is the identity, and it also contains h = m c",
+    ("only-the-inertia", "your result is the smallest eigenvalue of I. Use the "
+                         "pseudo-inertia [[S, h], [h^T, m]] with S = (tr(I)/2) E - I, "
+                         "where E is the identity matrix",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi)[:3, :3])[0]),
     ("inertia-not-turned-round", "your upper left block is I. It should be the sum of "
                                  "m r r^T, which is (tr(I)/2) E - I with the identity "
-                                 "E",
+                                 "matrix E",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: I))[0]),  # noqa: E741
-    ("products-not-negated", "the off-diagonal entries of your S have the wrong "
-                             "sign. The block S is (tr(I)/2) E - I with the identity "
-                             "E, so these entries are -Ixy, -Ixz and -Iyz",
+    ("products-not-negated", "the off-diagonal entries of your S have the wrong sign. "
+                             "In S = (tr(I)/2) E - I with the identity matrix E, they "
+                             "are -Ixy, -Ixz and -Iyz",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, mirrored))[0]),
     ("not-halved", "the diagonal of your S is twice as large as it should be. The "
-                   "block S is (tr(I)/2) E - I with the identity E, so its first "
-                   "entry is (Iyy + Izz - Ixx) / 2",
+                   "first entry of (tr(I)/2) E - I, with the identity matrix E, is "
+                   "(Iyy + Izz - Ixx) / 2",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, doubled))[0]),
-    ("centre-for-first-moment", "your code uses the centre of mass c instead of h = "
-                                "m c",
+    ("centre-for-first-moment", "your code uses the centre of mass c instead of the "
+                                "first moment h = m c",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, h=1.0 / phi[0]))[0]),
     ("determinant", "your result is the determinant, which is the product of all "
                     "eigenvalues. Return the smallest eigenvalue",
@@ -73,17 +73,18 @@ for slug, says, code in (
                        "matters",
      lambda phi: np.linalg.svd(pseudo(phi), compute_uv=False)[-1]),
     ("nearest-to-zero", "your result is the eigenvalue with the smallest absolute "
-                        "value. A negative eigenvalue is smaller than any positive one",
+                        "value. Return the smallest eigenvalue, which may be negative",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi)), key=abs)),
     ("clipped", "your code sets a positive result to 0. Return the eigenvalue itself",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
     ("never-above-zero", "your result is minus the absolute value of the eigenvalue. "
-                         "For a body that can exist, the smallest eigenvalue is not "
-                         "negative",
+                         "Return the eigenvalue itself, which is not negative for a "
+                         "body that can exist",
      lambda phi: -abs(np.linalg.eigvalsh(pseudo(phi))[0])),
-    ("first-moment-once", "your result does not depend on h. Either your matrix has "
-                          "no h, or only its upper triangle has h, but "
-                          "numpy.linalg.eigvalsh reads the lower triangle",
+    ("first-moment-once", "your result does not depend on h. Either your matrix does "
+                          "not contain h, or it contains h only above the diagonal. "
+                          "The function numpy.linalg.eigvalsh reads only the lower "
+                          "triangle",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
     ("about-the-centre", "your code first moves I to the centre of mass. The "
@@ -91,8 +92,8 @@ for slug, says, code in (
                          "unchanged",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
     ("of-the-inertia", "your result is the smallest eigenvalue of the 6x6 spatial "
-                       "inertia. The 4x4 pseudo-inertia contains (tr(I)/2) E - I, with "
-                       "the identity E, and h",
+                       "inertia. Use the 4x4 pseudo-inertia [[S, h], [h^T, m]] with S "
+                       "= (tr(I)/2) E - I, where E is the identity matrix",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi))[0]),
     ("unsorted", "your result is the first eigenvalue of numpy.linalg.eigvals, which "
                  "does not sort the eigenvalues. Return the smallest one",

@@ -29,36 +29,36 @@ def _(rng):
 @row.wrongs
 def _(Y, tau, Y_new, rtol):
     """columns-for-rank: your code divides the sum of the squared residuals by n - p.
-      Divide it by n - rank, because the fit has only rank free parameters
+      Divide it by n - rank, because the truncated fit has only as many free parameters
+      as the rank
     one-more-taken-off: your code divides the sum of the squared residuals by n - rank -
       1. No mean is subtracted, so divide the sum by n - rank
-    mean-of-sizes: your code computes the noise as the mean absolute residual. Use the
-      square root of the sum of the squared residuals over n - rank
+    mean-of-sizes: your noise is the mean absolute residual. It should be sqrt(r . r /
+      (n - rank)) with the vector r of the residuals
     noise-added: your code adds the noise of a new measurement to sigma, but sigma
       should include only the uncertainty of the fitted parameters
     mean-taken-off: your code first subtracts the mean of the residuals, as in a
       standard deviation about the mean. The mean is part of the noise, so do not
       subtract it
-    rank-taken-off-last: your code subtracts the rank after the division by n. Put n -
-      rank in brackets
-    noise-for-sigma: your sigma is the standard deviation of the noise in every row. A
-      prediction that the data hardly determine should have a larger sigma
-    sigma-by-s-squared: your code divides sigma by the singular values twice. The
-      covariance V S^-2 V^T contains S^-2, but sigma is the square root of y V S^-2 V^T
-      y^T
+    rank-taken-off-last: your code subtracts the rank after the division by n. Divide by
+      (n - rank)
+    noise-for-sigma: your sigma is the standard deviation of the noise for every row of
+      Y_new. It should be larger for a row that the data hardly determine
+    sigma-by-s-squared: your sigma contains the factor S^-2. This factor belongs to the
+      variance y V S^-2 V^T y^T, and sigma is the square root of the variance
     sigma-with-V: your sigma uses V^T instead of V. The third result of numpy.linalg.svd
-      is V^T
+      is V^T, so transpose it
     sigma-cut-not-squared: for sigma, your code compares the eigenvalues of Y^T Y with
-      rtol times the largest one. They are the squares of the singular values, so use
-      rtol^2
+      rtol times the largest one. These eigenvalues are the squares of the singular
+      values, so use rtol^2
     sizes-added: your sigma adds the absolute values of the terms. The variances of
       independent errors add, so sigma should be the square root of the sum of the
       squared terms
     sizes-added 2: your sigma adds the absolute values of the weights of the
       measurements. The variances of independent errors add, so sigma should be the
-      square root of the sum of the squares
-    sigma-not-cut: your sigma includes the small singular values that the fit leaves
-      out. Leave them out of sigma too
+      square root of the sum of the squared weights
+    sigma-not-cut: your sigma includes the small singular values that the fit omits.
+      Omit these values in sigma too
     """
     torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
     U, s, Vt = parts(Y, rtol)

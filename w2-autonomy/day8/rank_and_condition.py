@@ -16,9 +16,9 @@ def of_what_counts(case: Case) -> Finding | None:
         off = np.sum(ranks != case.T[0])
         return Finding(
             "rank-off",
-            "The condition number is right, but the rank is wrong in "
+            "The condition number is correct, but the rank is wrong in "
             f"{off} of {len(ranks)} calls. The rank is the number of singular values "
-            "that are large enough.",
+            "above rtol times the largest one.",
         )
     more = fewer = other = dust = 0
     for Y, n, right, condition in zip(
@@ -41,27 +41,28 @@ def of_what_counts(case: Case) -> Finding | None:
     calls = f"of {len(ranks)} calls"
     if dust and not more and not fewer and not other:
         says = f"Your code counts a rounding error as a singular value in {dust} "
-        says += f"{calls}. If you compute the eigenvalues of Y^T Y, their rounding "
-        says += "errors are 1e-8 of the largest one after the root. With "
-        says += "numpy.linalg.svd they are 1e-16."
+        says += f"{calls}. Square roots of the eigenvalues of Y^T Y have rounding "
+        says += "errors of 1e-8 times the largest singular value. With "
+        says += "numpy.linalg.svd, the errors are only 1e-16 times this value."
         return Finding("rounding-counts", says)
     if dust:
         return None
     if not more and not fewer:
-        says = f"The rank is right, but in {other} {calls} the condition number does "
-        says += "not use the smallest of the singular values that you count."
+        says = f"The rank is correct. In {other} {calls}, the condition number does "
+        says += "not use the smallest singular value that the rank counts."
         return Finding("condition-of-all", says)
     says = miscounted(more, fewer, calls)
-    says += "" if other else " The condition number uses the smallest that you count."
+    if not other:
+        says += " The condition number uses the smallest value that the rank counts."
     return Finding("cut-elsewhere", says)
 
 
 def miscounted(more: int, fewer: int, calls: str) -> str:
     """Return in how many calls the wrong singular values are counted."""
-    parts = [f"too many singular values are counted in {more} {calls}"] * (more > 0)
-    parts += [f"too few singular values are counted in {fewer} {calls}"] * (fewer > 0)
-    says = f"{', and '.join(parts)}. Count those above rtol times the largest one."
-    return says[0].upper() + says[1:]
+    parts = [f"too many singular values in {more} {calls}"] * (more > 0)
+    parts += [f"too few singular values in {fewer} {calls}"] * (fewer > 0)
+    says = f"Your code counts {' and '.join(parts)}. "
+    return f"{says}Count the values above rtol times the largest one."
 
 
 KIND = Count(called="the rank"), Scalar(called="the condition number")
@@ -81,13 +82,15 @@ def _(rng):
 
 for slug, says, told in (
     ("rtol-absolute", "your code compares the singular values with rtol itself. "
-                      "Compare them with rtol times the largest one; otherwise the "
-                      "rank depends on the unit",
+                      "Compare them with rtol times the largest one, because "
+                      "otherwise the rank depends on the unit",
      lambda s, rtol: (n := np.sum(s > rtol), s[0] / s[n - 1])),
     ("condition-of-all", "your condition number uses the smallest of all singular "
-                         "values. Use the smallest one that the rank counts",
+                         "values. Use the smallest singular value that the rank "
+                         "counts",
      lambda s, rtol: (np.sum(s > rtol * s[0]), s[0] / max(s[-1], 1e-300))),
-    ("nothing-cut", "your code counts all singular values, so rtol has no effect",
+    ("nothing-cut", "your code counts all singular values, so rtol has no effect. "
+                    "Count only the values above rtol times the largest one",
      lambda s, rtol: (len(s), s[0] / max(s[-1], 1e-300))),
     ("cut-by-the-sum", "your code compares the singular values with rtol times their "
                        "sum. Compare them with rtol times the largest one",
@@ -102,19 +105,21 @@ for slug, says, told in (
      lambda s, rtol, m: (n := np.sum(s > rtol * m * s[0]), s[0] / s[n - 1])),
     ("rtol-not-used", "your tolerance is a constant. Use the argument rtol",
      lambda s, rtol: (n := np.sum(s > 1e-9 * s[0]), s[0] / s[n - 1])),
-    ("eigenvalues-of-the-square", "your code uses the eigenvalues of Y^T Y as singular "
-                                  "values. The singular values of Y are their square "
-                                  "roots",
+    ("eigenvalues-of-the-square", "your code uses the eigenvalues of Y^T Y as "
+                                  "singular values. The singular values of Y are the "
+                                  "square roots of these eigenvalues",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), (s[0] / s[n - 1]) ** 2)),
     ("cut-not-squared", "your code compares the eigenvalues of Y^T Y with rtol times "
-                        "the largest one. They are the squares of the singular "
-                        "values, so compare them with rtol^2 times the largest one",
+                        "the largest one. These eigenvalues are the squares of the "
+                        "singular values, so compare them with rtol^2 times the "
+                        "largest one",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), s[0] / s[n - 1])),
     ("hidden-for-shown", "your rank is the number of singular values below the limit. "
                          "It should be the number above the limit",
      lambda s, rtol: (len(s) - (n := np.sum(s > rtol * s[0])), s[0] / s[n - 1])),
-    ("condition-squared", "your code computes the condition number of Y^T Y, which "
-                          "is the square of the condition number of Y",
+    ("condition-squared", "your code computes the condition number of Y^T Y, which is "
+                          "the square of the condition number of Y. Use the singular "
+                          "values of Y",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
     ("condition-rooted", "your condition number is the square root of the ratio of "
                          "the singular values. Take a square root only if you use "

@@ -25,12 +25,12 @@ def _(rng):
 
 @row.wrongs
 def _(phi):
-    """products-negative: your products Ixy, Ixz and Iyz have the wrong sign. The
-      argument phi contains the entries of I themselves, so copy them unchanged
+    """products-negative: your products of inertia Ixy, Ixz and Iyz have the wrong sign.
+      The argument phi contains the entries of I, so copy them unchanged
     row-by-row: your code reads the six entries of I in the order Ixx, Ixy, Iyy, Ixz,
-      Iyz, Izz. In phi the three diagonal entries come first
+      Iyz, Izz. Their order in phi is Ixx, Iyy, Izz, Ixy, Ixz, Iyz
     triangle-by-rows: your code reads the six entries of I in the order Ixx, Ixy, Ixz,
-      Iyy, Iyz, Izz. In phi the three diagonal entries come first
+      Iyy, Iyz, Izz. Their order in phi is Ixx, Iyy, Izz, Ixy, Ixz, Iyz
     first-moment-times-m: your code multiplies phi[1:4] by m, but phi[1:4] is already
       the first moment m c
     corners-swapped: your code swaps the off-diagonal blocks. The block [h] belongs in
@@ -50,7 +50,7 @@ def _(phi):
 @row.wrongs
 def _(phi):
     """lower-half-zero: your matrix has the products Ixy, Ixz and Iyz only above the
-      diagonal, but I is symmetric
+      diagonal. Write them below the diagonal too, because I is symmetric
     inertia-about-the-centre: your code adds m [c] [c]^T to I, but I in phi is about the
       origin and already includes this term
     steiner-without-m: your code adds [h] [h]^T to I, but I in phi is already about the
@@ -59,8 +59,8 @@ def _(phi):
       block should be [h]^T
     corner-negated: both of your off-diagonal blocks are [h]^T. The upper right block
       should be [h]
-    velocity-first: your blocks are in the order (v; omega), but a twist is (omega; v)
-      in this course
+    velocity-first: your blocks are in the order (v; omega), but a twist in this course
+      is (omega; v)
     """
     G = right(phi)
     C = skew(phi[1:4])

@@ -115,8 +115,8 @@ def parts(Y, rtol):
 
 @row.wrongs
 def _(Y, tau, rtol):
-    """nothing-cut: your code uses all singular values, so noise determines the
-      combinations of parameters that the data do not determine
+    """nothing-cut: your code uses all singular values. Omit the values below rtol times
+      the largest one, because noise dominates their combinations of parameters
     rtol-absolute: your code compares the singular values with rtol itself. Compare them
       with rtol times the largest one
     cut-by-the-sum: your code compares the singular values with rtol times their sum.
@@ -126,18 +126,19 @@ def _(Y, tau, rtol):
     cut-by-rows: your function multiplies rtol by the number of rows, as NumPy does with
       its default tolerance. Compare the singular values with rtol times the largest one
     V-for-its-transpose: your code uses V^T instead of V. The third result of
-      numpy.linalg.svd is V^T
+      numpy.linalg.svd is V^T, so transpose it
     cut-not-squared: your code compares the eigenvalues of Y^T Y with rtol times the
-      largest one. They are the squares of the singular values, so compare them with
-      rtol^2 times the largest one
+      largest one. These eigenvalues are the squares of the singular values, so compare
+      them with rtol^2 times the largest one
     ridge: your code adds a constant to the diagonal of Y^T Y, which reduces every
-      parameter, even those that the data determine
+      parameter. Omit the small singular values instead, so that the other combinations
+      keep their values
     mean-taken-off: your code first subtracts the mean of tau, but the model tau = Y phi
       has no constant term
-    times-s: your fit multiplies by the singular values. The pseudo-inverse of Y divides
-      by them
+    times-s: your fit multiplies by the singular values. Divide by them, as in the
+      pseudo-inverse of Y
     first-columns: your code fits only the first r columns of Y, where r is the rank.
-      These columns need not be linearly independent
+      These columns need not be linearly independent, so use all columns and the SVD
     """
     U, s, Vt = parts(Y, rtol)
     _, every, turned = np.linalg.svd(Y, full_matrices=False)

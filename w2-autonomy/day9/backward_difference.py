@@ -28,46 +28,48 @@ def velocity(q, dt, *, change):
 
 
 for slug, says, other in (
-    ("forward", "each velocity in your code uses the next sample, which is not known "
-                "yet. Use the previous sample",
+    ("forward", "your code computes each velocity from the next sample, which is not "
+                "known yet. Use the previous sample instead",
      {"change": lambda q: np.append(np.diff(q), 0.0)}),
-    ("forward", "each velocity in your code uses the next sample, which is not known "
-                "yet. Use the previous sample",
+    ("forward", "your code computes each velocity from the next sample, which is not "
+                "known yet. Use the previous sample instead",
      {"change": lambda q: np.append(np.diff(q), np.diff(q)[-1])}),
-    ("forward", "each velocity in your code uses the next sample, which is not known "
-                "yet. Use the previous sample",
+    ("forward", "your code computes each velocity from the next sample, which is not "
+                "known yet. Use the previous sample instead",
      {"change": lambda q: np.diff(q, append=0.0)}),
-    ("central", "your function returns the central difference, which uses the next "
-                "sample. This sample is not known yet, so use the previous sample",
+    ("central", "your function returns the central difference, which needs the next "
+                "sample. This sample is not known yet, so use the current and the "
+                "previous sample",
      {"change": np.gradient}),
-    ("central", "your function returns the central difference, which uses the next "
-                "sample. This sample is not known yet, so use the previous sample",
+    ("central", "your function returns the central difference, which needs the next "
+                "sample. This sample is not known yet, so use the current and the "
+                "previous sample",
      {"change": lambda q: np.append(0.0, np.gradient(q)[1:])}),
     ("from-zero", "your first velocity is q_0 / dt, as if a sample of 0 preceded it. "
                   "No sample precedes the first one, so the first velocity should be 0",
      {"change": lambda q: np.diff(q, prepend=0.0)}),
-    ("round-the-corner", "your first velocity uses the last sample, as with np.roll. "
-                         "No sample precedes the first one, so the first velocity "
-                         "should be 0",
+    ("round-the-corner", "your code computes the first velocity with the last entry "
+                         "of q, as np.roll does. No sample precedes the first one, so "
+                         "the first velocity should be 0",
      {"change": lambda q: q - np.roll(q, 1)}),
-    ("first-repeated", "your first velocity repeats the second. No sample precedes the "
-                       "first one, so the first velocity should be 0",
+    ("first-repeated", "your first velocity is a copy of the second. No sample "
+                       "precedes the first one, so the first velocity should be 0",
      {"change": lambda q: np.append(np.diff(q)[:1], np.diff(q))}),
-    ("two-samples", "your code divides the change over two samples by one dt. Use the "
-                    "change since the previous sample",
+    ("two-samples", "your code divides the change over two samples by one dt. Divide "
+                    "the change since the previous sample by dt instead",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2])}),
     ("mean-of-two", "your code divides the change over two samples by 2 dt, which "
-                    "approximates the velocity one sample earlier. Use the change "
-                    "since the previous sample",
+                    "approximates the velocity at the previous sample. Divide the "
+                    "change since the previous sample by dt instead",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2]) / 2}),
-    ("since-the-start", "your result is the mean velocity since the first sample. Use "
-                        "the change since the previous sample",
+    ("since-the-start", "your result is the mean velocity since the first sample. "
+                        "Divide the change since the previous sample by dt instead",
      {"change": lambda q: (q - q[0]) / np.maximum(np.arange(len(q)), 1)}),
-    ("from-the-first", "your code divides the change since the first sample by dt. Use "
-                       "the change since the previous sample",
+    ("from-the-first", "your code divides the change since the first sample by dt. "
+                       "Use the change since the previous sample instead",
      {"change": lambda q: q - q[0]}),
-    ("by-its-time", "your code divides each change by the time k dt since the start, "
-                    "but the change happened during one dt",
+    ("by-its-time", "your code divides each change by the time since the start. Each "
+                    "change happened within one period, so divide it by dt",
      {"change": lambda q: backward(q) / np.maximum(np.arange(len(q)), 1)}),
     ("last-left-out", "your last velocity is 0. Does your loop end one sample too "
                       "early?",
@@ -75,8 +77,9 @@ for slug, says, other in (
     ("second-left-out", "your second velocity is 0. Does your loop begin one sample "
                         "too late?",
      {"change": lambda q: np.append([0.0, 0.0], np.diff(q)[1:])}),
-    ("twice", "your code takes the difference twice, which gives an acceleration "
-              "times dt. Take it once", {"change": lambda q: backward(backward(q))}),
+    ("twice", "your code takes the difference of the differences, which gives an "
+              "acceleration times dt. Take the difference only once",
+     {"change": lambda q: backward(backward(q))}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(velocity, **other))
 

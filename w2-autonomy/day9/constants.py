@@ -9,36 +9,36 @@ from functools import cache
 import numpy as np
 
 from labkit.lesson.constants import Numbers, between, same, times, turned
-from labkit.lesson.day import find_day
-from labkit.lesson.lab_module import lab_of
+from labkit.lesson.lab_module import complete_lab
 from robo47 import panda, simulate
 from robo47.references import raised_cosine
 
-LAB = lab_of(find_day(9))
+LAB = complete_lab(9)
 DAY = LAB.day9_mujoco
 MODEL = panda.load("panda_nohand", drive="torque")
 ARM = panda.arm(MODEL)
 
 numbers = Numbers(
-    bits="bits of the encoder: {}",
+    LAB, DAY,
+    BITS="bits of the encoder: {}",
     dt="time between samples: {} s",
     reach="amplitude of the swing, REACH: × {}",
-    omega="omega of the PD gains: {} 1/s",
+    OMEGA="omega of the PD gains: {} 1/s",
     zeta="damping ratio: {}",
     late="delay: {} s",
-    rate="control rate: {} Hz",
-    small="initial error, SMALL: {} rad",
+    RATE="control rate: {} Hz",
+    SMALL="initial error, SMALL: {} rad",
     cutoff="cutoff: {} Hz",
-    wanders="WANDERS, of the joint and of the filter: {} rad²/s³",
-    noise="NOISE, of the readings and of the filter: {} rad",
-    seed="SEED: {}",
+    WANDERS="WANDERS, of the joint and of the filter: {} rad²/s³",
+    NOISE="NOISE, of the readings and of the filter: {} rad",
+    SEED="SEED: {}",
     told_q="accel_psd of the filter: WANDERS × {}",
     told_R="R of the filter: NOISE² × {}",
-    gain="GAIN: {} 1/s",
-    step="time step: {} s",
+    GAIN="GAIN: {} 1/s",
+    DT="time step: {} s",
     share="factor of the energy's gradient: {}",
     force="the push: {} N",
-    threshold="THRESHOLD: {} N m",
+    THRESHOLD="THRESHOLD: {} N m",
 )
 
 
@@ -49,144 +49,107 @@ def swung(reach):
     return DAY.moved(MODEL, ARM, swing, 2.0)
 
 
-@numbers.add(
-    "noise of a 16-bit difference", "{:.4f} rad/s",
-    bits=times(0.5, "a count is half as large", to=17),
+@numbers.add("noise of a 16-bit difference", "{:.4f} rad/s",
+    BITS=times(0.5, "a count is half as large", to=17),
     dt=times(0.5, "the same two rounding errors, divided by twice the time", within=0.05),
-    reach=between(0.98, 1.02, "the rounding error does not depend on the motion, as long "
-                  "as successive errors are uncorrelated"),
-)  # fmt: skip
-def difference_noise(bits=LAB.BITS, dt=LAB.DT, reach=1.0):
-    """Return the RMS error of the differences, all joints."""
+    reach=between(0.98, 1.02, "the rounding error does not depend on the motion, as long as successive errors are uncorrelated"))
+def difference_noise(dt=LAB.DT, reach=1.0):
     q = swung(reach).q[:: round(dt / LAB.DT)]
     with turned(LAB, DT=dt):
-        off = LAB.speeds(LAB.encoder(q, bits)) - LAB.speeds(q)
+        off = LAB.speeds(LAB.encoder(q, LAB.BITS)) - LAB.speeds(q)
     return LAB.rms(off[1:])
 
 
-@numbers.add(
-    "delay margin", "{:.2f} ms",
-    omega=times(0.5, "1 / omega is the only time in the formula"),
-    zeta=between(0.4, 1.0, "the phase lead grows, but the crossover frequency grows more"),
-)  # fmt: skip
-def margin(omega=DAY.OMEGA, zeta=1.0):
-    """Return it."""
-    return 1000 * LAB.delay_margin(omega**2, 2 * zeta * omega)
+@numbers.add("delay margin", "{:.2f} ms",
+    OMEGA=times(0.5, "1 / omega is the only time in the formula"),
+    zeta=between(0.4, 1.0, "the phase lead grows, but the crossover frequency grows more"))
+def margin(zeta=1.0):
+    return 1000 * LAB.delay_margin(DAY.OMEGA**2, 2 * zeta * DAY.OMEGA)
 
 
-@numbers.add(
-    "fraction of an error left after 2 s, 34 ms late", "{:.3g}",
+@numbers.add("fraction of an error left after 2 s, 34 ms late", "{:.3g}",
     late=between(1.5, 1e9, "the delay is far above the margin, and the error grows until the motors saturate"),
-    omega=times(0.0, "with omega = 10 1/s the margin is 65 ms", within=0.05, to=10.0),
-    rate=between(0.3, 0.8, "holding the torque adds 0.5 ms to the delay on average, not "
-                 "1 ms: the limit is 31.9 ms, and 34 ms is still above it"),
-    small=same("the loop is linear as long as no motor saturates"),
-)  # fmt: skip
-def left(late=0.034, omega=DAY.OMEGA, rate=DAY.RATE, small=DAY.SMALL):
-    """Return the fraction."""
+    OMEGA=times(0.0, "with omega = 10 1/s the margin is 65 ms", within=0.05, to=10.0),
+    RATE=between(0.3, 0.8, "holding the torque adds 0.5 ms to the delay on average, not 1 ms: the limit is 31.9 ms, and 34 ms is still above it"),
+    SMALL=same("the loop is linear as long as no motor saturates"))
+def left(late=0.034):
     model = copy(MODEL)
-    model.opt.timestep = 1 / rate
-    with turned(DAY, SMALL=small):
-        return DAY.left_over(model, ARM, late, omega, rate)
+    model.opt.timestep = 1 / DAY.RATE
+    return DAY.left_over(model, ARM, late, DAY.OMEGA, DAY.RATE)
 
 
-@numbers.add(
-    "error of joint 4's velocity after a low pass of 50 Hz", "{:.4f} rad/s",
+@numbers.add("error of joint 4's velocity after a low pass of 50 Hz", "{:.4f} rad/s",
     cutoff=between(1.3, 1.7, "above the cutoff of the minimum, noise dominates"),
-    bits=between(0.5, 0.75, "half the noise, the same lag", to=17),
-    reach=between(1.1, 1.4, "twice the acceleration doubles the lag, and the noise is the same"),
-)  # fmt: skip
-def smooth(cutoff=50.0, bits=LAB.BITS, reach=1.0):
-    """Return the RMS error."""
+    BITS=between(0.5, 0.75, "half the noise, the same lag", to=17),
+    reach=between(1.1, 1.4, "twice the acceleration doubles the lag, and the noise is the same"))
+def smooth(cutoff=50.0, reach=1.0):
     run = swung(reach)
-    z = LAB.encoder(run.q, bits)[:, LAB.JOINT]
+    z = LAB.encoder(run.q, LAB.BITS)[:, LAB.JOINT]
     raw = LAB.backward_difference(z, LAB.DT)
     off = LAB.low_pass(raw, LAB.DT, cutoff) - run.qd[:, LAB.JOINT]
     return LAB.rms(off[LAB.SETTLED :])
 
 
-@cache
-def tracked(wanders, noise, seed, told_q, told_R):
+def tracked(told_q, told_R):
     """Return the output of a filter with these factors of accel_psd and R."""
-    with turned(LAB, WANDERS=wanders, NOISE=noise):
-        z, _ = LAB.wandering(np.random.default_rng(seed))
-    return LAB.track(z, told_q * wanders, told_R * noise**2)
+    z, _ = LAB.wandering(np.random.default_rng(LAB.SEED))
+    return LAB.track(z, told_q * LAB.WANDERS, told_R * LAB.NOISE**2)
 
 
-@numbers.add(
-    "mean NIS of the correct filter", "{:.3f}",
-    wanders=between(0.95, 1.05, "the innovations grow as the filter expects"),
-    noise=between(0.95, 1.05, "the innovations grow as the filter expects"),
-    seed=between(0.9, 1.1, "another random sequence", to=10),
+@numbers.add("mean NIS of the correct filter", "{:.3f}",
+    WANDERS=between(0.95, 1.05, "the innovations grow as the filter expects"),
+    NOISE=between(0.95, 1.05, "the innovations grow as the filter expects"),
+    SEED=between(0.9, 1.1, "another random sequence", to=10),
     told_q=between(0.7, 0.95, "the innovations are smaller than the filter expects"),
-    told_R=between(0.5, 0.8, "the filter expects larger innovations"),
-)  # fmt: skip
-def nis(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=1.0, told_R=1.0):
-    """Return it."""
-    return tracked(wanders, noise, seed, told_q, told_R)["nis"].mean()
+    told_R=between(0.5, 0.8, "the filter expects larger innovations"))
+def nis(told_q=1.0, told_R=1.0):
+    return tracked(told_q, told_R)["nis"].mean()
 
 
-@numbers.add(
-    "lag-1 autocorrelation of the filter with two errors", "{:.3f}",
-    wanders=between(0.9, 1.05, "the two parameters are still wrong by factors of 0.1 and 10"),
-    noise=between(0.95, 1.1, "the two parameters are still wrong by factors of 0.1 and 10"),
-    seed=between(0.95, 1.05, "another random sequence", to=10),
+@numbers.add("lag-1 autocorrelation of the filter with two errors", "{:.3f}",
+    WANDERS=between(0.9, 1.05, "the two parameters are still wrong by factors of 0.1 and 10"),
+    NOISE=between(0.95, 1.1, "the two parameters are still wrong by factors of 0.1 and 10"),
+    SEED=between(0.95, 1.05, "another random sequence", to=10),
     told_q=between(0.85, 0.99, "the ratio of accel_psd to R is wrong by a factor of 50, not of 100"),
-    told_R=between(1.0, 1.1, "the ratio is wrong by a factor of 200"),
-)  # fmt: skip
-def white(wanders=LAB.WANDERS, noise=LAB.NOISE, seed=LAB.SEED, told_q=0.1, told_R=10.0):
-    """Return it."""
-    said = tracked(wanders, noise, seed, told_q, told_R)
-    return LAB.lag1_autocorrelation(said["innovation"])
+    told_R=between(1.0, 1.1, "the ratio is wrong by a factor of 200"))
+def white(told_q=0.1, told_R=10.0):
+    return LAB.lag1_autocorrelation(tracked(told_q, told_R)["innovation"])
 
 
-@numbers.add(
-    "largest residual in free motion", "{:.3f} N m",
-    gain=between(1.0, 1.01, "the lag of the observer is not the cause"),
-    step=times(2.0, "the error of a first-order integrator doubles with the time step", within=0.02),
+@numbers.add("largest residual in free motion", "{:.3f} N m",
+    GAIN=between(1.0, 1.01, "the lag of the observer is not the cause"),
+    DT=times(2.0, "the error of a first-order integrator doubles with the time step", within=0.02),
     reach=between(1.5, 4.5, "velocities double, and their products grow fourfold"),
-    share=between(50, 200, "the residual then contains the gradient", to=0.0),
-)  # fmt: skip
-def free(gain=LAB.GAIN, step=LAB.DT, reach=1.0, share=1.0):
-    """Return it, over the first second of the swing."""
+    share=between(50, 200, "the residual then contains the gradient", to=0.0))
+def free(reach=1.0, share=1.0):
     model = copy(MODEL)
-    model.opt.timestep = step
+    model.opt.timestep = LAB.DT
     law = DAY.tracking(ARM, raised_cosine(panda.READY_Q, reach * DAY.REACH))
     data = simulate.start(model, panda.READY_Q)
-    run = simulate.run(model, data, law, 1.0, rate=1 / step)
-    with turned(LAB, GAIN=gain, DT=step):
-        return np.abs(LAB.felt(ARM, run, share)).max()
+    run = simulate.run(model, data, law, 1.0, rate=1 / LAB.DT)
+    return np.abs(LAB.felt(ARM, run, share)).max()
 
 
-@cache
-def pushed(force, omega):
-    """Return the run of step 6 with another push or other springs."""
-    with turned(DAY, OMEGA=omega):
-        push = DAY.push(LAB.FLANGE, [0.0, 0.0, -force], LAB.SINCE)
-        return DAY.moved(MODEL, ARM, DAY.STAY, 0.8, push)
+@numbers.cached
+def pushed(force):
+    """Return the run of step 6 with another push."""
+    push = DAY.push(LAB.FLANGE, [0.0, 0.0, -force], LAB.SINCE)
+    return DAY.moved(MODEL, ARM, DAY.STAY, 0.8, push)
 
 
-@numbers.add(
-    "joint 4's residual of 10 N on the flange", "{:.3f} N m",
+@numbers.add("joint 4's residual of 10 N on the flange", "{:.3f} N m",
     force=times(2.0, "J^T F is linear in F; the arm yields a little more"),
-    omega=between(0.99, 1.01, "a stiffer controller yields less"),
-    gain=same("the gain changes the time, not the final value"),
-    share=same("at rest the gradient is zero", to=-1.0),
-)  # fmt: skip
-def steady(force=10.0, omega=DAY.OMEGA, gain=LAB.GAIN, share=1.0):
-    """Return it at the end."""
-    with turned(LAB, GAIN=gain):
-        return LAB.felt(ARM, pushed(force, omega), share)[-1, LAB.JOINT]
+    OMEGA=between(0.99, 1.01, "a stiffer controller yields less"),
+    GAIN=same("the gain changes the time, not the final value"),
+    share=same("at rest the gradient is zero", to=-1.0))
+def steady(force=10.0, share=1.0):
+    return LAB.felt(ARM, pushed(force), share)[-1, LAB.JOINT]
 
 
-@numbers.add(
-    "detection time of 10 N on the flange", "{:.0f} ms",
+@numbers.add("detection time of 10 N on the flange", "{:.0f} ms",
     force=times(0.5, "the residual needs only 1.1 ms, so the first sample detects it"),
-    gain=times(0.5, "the residual needs only 1.1 ms, so the first sample detects it"),
-    threshold=times(1.5, "the residual needs 4.8 ms, so the third sample detects it"),
-    share=same("at rest the gradient is zero", to=-1.0),
-)  # fmt: skip
-def noticed(force=10.0, gain=LAB.GAIN, threshold=LAB.THRESHOLD, share=1.0):
-    """Return it."""
-    with turned(LAB, GAIN=gain, THRESHOLD=threshold):
-        return LAB.notices(LAB.felt(ARM, pushed(force, DAY.OMEGA), share))
+    GAIN=times(0.5, "the residual needs only 1.1 ms, so the first sample detects it"),
+    THRESHOLD=times(1.5, "the residual needs 4.8 ms, so the third sample detects it"),
+    share=same("at rest the gradient is zero", to=-1.0))
+def noticed(force=10.0, share=1.0):
+    return LAB.notices(LAB.felt(ARM, pushed(force), share))

@@ -26,37 +26,35 @@ def margin(
 
 
 for slug, says, other in (
-    ("at-omega", "your w is sqrt(kp), the crossover frequency of the proportional term "
-                 "alone. The derivative term increases the amplitude, so w should be "
-                 "larger", {"w": lambda kp, kd: np.sqrt(kp)}),
-    ("at-kd", "your w is kd, the crossover frequency of the derivative term alone. The "
-              "proportional term increases the amplitude, so w should be larger",
+    ("at-omega", "your w is sqrt(kp), the crossover frequency of the proportional "
+                 "term alone. Include the derivative term: solve w^4 = kp^2 + kd^2 "
+                 "w^2 for w", {"w": lambda kp, kd: np.sqrt(kp)}),
+    ("at-kd", "your w is kd, the crossover frequency of the derivative term alone. "
+              "Include the proportional term: solve w^4 = kp^2 + kd^2 w^2 for w",
      {"w": lambda kp, kd: kd}),
-    ("strengths-added", "your w^2 is kp + kd^2. The two terms differ in phase by 90 "
-                        "degrees, so the amplitude of their sum is sqrt(kp^2 + kd^2 "
-                        "w^2)",
+    ("strengths-added", "your w^2 is kp + kd^2. At the crossover frequency, w^2 = "
+                        "sqrt(kp^2 + kd^2 w^2), because the two terms differ in phase "
+                        "by 90 degrees",
      {"w": lambda kp, kd: np.sqrt(kp + kd**2)}),
-    ("minus-in-the-root", "your code subtracts 4 kp^2 under the inner root. The "
-                          "solution of w^4 - kd^2 w^2 - kp^2 = 0 has a plus sign there",
+    ("minus-in-the-root", "your code subtracts 4 kp^2 under the inner root. Add it "
+                          "instead, because w^2 solves x^2 - kd^2 x - kp^2 = 0",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(abs(kd**4 - 4 * kp**2))) / 2)}),
     ("half-left-out", "your code does not halve kd^2 in the quadratic formula. The "
                       "roots of x^2 - kd^2 x - kp^2 = 0 are kd^2 / 2 +- sqrt(kd^4 / "
                       "4 + kp^2)",
      {"w": lambda kp, kd: np.sqrt(kd**2 + np.sqrt(kd**4 + kp**2))}),
-    ("neither-squared", "your quadratic formula uses kd and kp instead of their "
-                        "squares. The unknown is w^2, so its roots contain kd^2, "
-                        "kd^4 and kp^2",
+    ("neither-squared", "your quadratic formula contains kd and kp instead of their "
+                        "squares. The unknown of the quadratic equation is w^2, so "
+                        "use kd^2, kd^4 and kp^2",
      {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**2 + 4 * kp)) / 2)}),
-    ("inverted", "your code inverts the fraction in atan. The phase lead is the "
-                 "angle from the proportional term kp towards the derivative term kd "
-                 "w, so it is 0 if kd is 0",
+    ("inverted", "your code inverts the fraction in atan. The phase lead is atan(kd w "
+                 "/ kp), which is 0 without a derivative term (kd = 0)",
      {"angle": lambda kp, kd, w: np.arctan(kp / (kd * w))}),
-    ("from-the-far-side", "your angle is pi minus the phase lead, but the phase "
-                          "margin is the distance from -180 degrees, which is the "
-                          "phase lead itself",
+    ("from-the-far-side", "your angle is pi minus the phase lead. The phase margin is "
+                          "measured from -180 degrees, so it is the phase lead itself",
      {"angle": lambda kp, kd, w: np.pi - np.arctan(kd * w / kp)}),
-    ("in-cycles", "your code divides the angle by the frequency in Hz, but the angle "
-                  "is in radians, so divide by w in rad/s",
+    ("in-cycles", "your code divides the angle by the frequency in Hz. Divide it by w "
+                  "in rad/s, because the angle is in radians",
      {"by": lambda w: w / (2 * np.pi)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(margin, **other))
@@ -65,9 +63,11 @@ for slug, says, other in (
 @row.wrongs
 def _(kp, kd):
     """critical-only: your result is 0.6474 / sqrt(kp), which is the delay margin only
-      for critical damping. Use the phase lead and the crossover frequency
+      for critical damping. For any damping, divide the phase lead atan(kd w / kp) by
+      the crossover frequency w
     damper-alone: your result is pi / (2 kd), the delay margin without a proportional
-      term, but kp changes the phase lead and the crossover frequency
+      term. Include kp both in the phase lead atan(kd w / kp) and in the crossover
+      frequency w
     """
     return {"critical-only": 0.6474 / np.sqrt(kp), "damper-alone": np.pi / 2 / kd}
 

@@ -11,7 +11,16 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from labkit.figures import cards, chart, sheet
-from labkit.figures.chart import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, RED, SKY
+from labkit.figures.chart import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    ORANGE,
+    PURPLE,
+    RED,
+    SKY,
+)
 from labkit.figures.scene import Box, Camera
 from robo47 import panda
 
@@ -19,7 +28,7 @@ import day9_mujoco
 
 CUTOFFS = np.geomspace(2.0, 200.0, 13)  # Hz
 ENCODERS = ((14, RED, "s-"), (16, BLUE, "o-"), (18, GREEN, "^-"))
-COLOURS = (GREY, BLUE, ORANGE, RED, SKY, GREEN, PURPLE)
+COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY)
 
 
 @chart.picture(height=9.0)
@@ -59,10 +68,14 @@ def _push(axes: Axes, residual: np.ndarray, truth: np.ndarray) -> None:
     """Draw the seven residuals, and the joint torques of the push by MuJoCo."""
     t = 1000 * (np.arange(len(residual)) * lab.DT - lab.SINCE)
     shown = (t > -60) & (t < 240)
-    for joint, colour in enumerate(COLOURS):
-        name = f"joint {joint + 1}" if abs(truth[joint]) > lab.THRESHOLD else None
+    feels = np.abs(truth) > lab.THRESHOLD
+    rest = ", ".join(str(joint + 1) for joint in np.flatnonzero(~feels))
+    axes.plot(t[shown], residual[shown][:, ~feels], color=GREY)
+    for joint, colour in zip(np.flatnonzero(feels), COLOURS, strict=False):
+        name = f"joint {joint + 1}"
         axes.plot(t[shown], residual[shown, joint], color=colour, label=name)
         axes.plot([0, 240], [truth[joint]] * 2, "--", color=colour, linewidth=1.5)
+    axes.text(240, 0.12, f"joints {rest}", color=GREY, ha="right", fontsize=chart.SMALL)
     axes.set(xlabel="time since the push, ms", ylabel="residual, N m")
     axes.set_title("10 N on the flange; dashed: $J^T F$")
     axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.77))

@@ -24,13 +24,14 @@ def _(rng):
 
 @row.wrongs
 def _(x, P, F, Q):
-    """transposed-on-the-left: your new covariance is F^T P F + Q. If the error e
-      becomes F e, then e e^T becomes F e e^T F^T, so F belongs on the left
-    P-not-carried: your new covariance is P + Q. F also changes the old error, so
-      transform P with F
-    Q-carried-too: your code also transforms Q with F. Add Q after the transformation
+    """transposed-on-the-left: your new covariance is F^T P F + Q. It should be F P F^T
+      + Q, because the error e becomes F e, and e e^T becomes F e e^T F^T
+    P-not-carried: your new covariance is P + Q. The matrix F also transforms the error
+      of the old state, so use F P F^T + Q
+    Q-carried-too: your code transforms both P and Q with F. Transform only P, and add Q
+      afterwards
     entry-by-entry: your function multiplies F and P entry by entry with `*`. Use `@`
-      for the matrix product
+      for the matrix product instead
     """
     Ps = {
         "transposed-on-the-left": F.T @ P @ F + Q,

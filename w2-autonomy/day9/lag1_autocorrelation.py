@@ -36,15 +36,16 @@ def correlation(
 
 AS_IT_IS = {"above": lambda y: y}
 for slug, says, other in (
-    ("mean-not-taken-off", "your code does not subtract the mean, but a constant "
-                           "offset alone makes neighbours correlated",
+    ("mean-not-taken-off", "your code does not subtract the mean of y. Subtract it "
+                           "first, because a constant offset makes neighbouring "
+                           "entries seem correlated",
      {**AS_IT_IS, "below": lambda y: y}),
     ("mean-left-in-the-products", "your code subtracts the mean before it computes "
                                   "the squares, but not before it computes the "
-                                  "products. Subtract it for both", AS_IT_IS),
-    ("mean-left-in-the-squares", "your code subtracts the mean before it computes "
-                                 "the products, but not before it computes the "
-                                 "squares. Subtract it for both",
+                                  "products. Subtract the mean for both", AS_IT_IS),
+    ("mean-left-in-the-squares", "your code subtracts the mean before it computes the "
+                                 "products, but not before it computes the squares. "
+                                 "Subtract the mean for both",
      {"below": lambda y: y}),
     ("squares-of-the-first", "your denominator omits the square of the last entry. Use "
                              "all n squares",
@@ -55,29 +56,33 @@ for slug, says, other in (
     ("two-sizes", "your denominator is the product of the norms of y[1:] and y[:-1]. "
                   "Use the sum of all n squares",
      {"squares": lambda d: np.sqrt((d[1:] @ d[1:]) * (d[:-1] @ d[:-1]))}),
-    ("by-n-sigma", "your code divides the mean product by the standard deviation. "
-                   "Divide by the variance, so that the unit cancels",
+    ("by-n-sigma", "your code divides the mean of the products by the standard "
+                   "deviation. Divide it by the variance instead, so that the unit "
+                   "cancels",
      {"squares": lambda d: np.sqrt(d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
     ("mean-of-products", "your code divides the mean of n - 1 products by the mean of "
                          "n squares. Divide the sum of the products by the sum of the "
                          "squares",
      {"share": lambda n: n / (n - 1)}),
     ("variance-for-sum", "your code divides the sum of the products by the mean of "
-                         "the squares. Divide it by the sum of the squares",
+                         "the squares. Divide it by the sum of the squares instead",
      {"share": lambda n: n}),
     ("mean-by-sum", "your code divides the mean of the products by the sum of the "
-                    "squares. Use the sum of the products instead",
+                    "squares. Divide the sum of the products by the sum of the "
+                    "squares instead",
      {"share": lambda n: 1 / (n - 1)}),
     ("mean-by-sum", "your code divides the mean of the products by the sum of the "
-                    "squares. Use the sum of the products instead",
+                    "squares. Divide the sum of the products by the sum of the "
+                    "squares instead",
      {"share": lambda n: 1 / n}),
-    ("lag-two", "your code multiplies each entry by the second entry after it. Use its "
-                "direct neighbour", {"pairs": lambda d: d[2:] @ d[:-2]}),
+    ("lag-two", "your code multiplies each entry by the second entry after it. "
+                "Multiply each entry by its direct neighbour",
+     {"pairs": lambda d: d[2:] @ d[:-2]}),
     ("lag-zero", "your code multiplies each entry by itself, so the result is always "
-                 "1. Multiply it by its neighbour", {"pairs": lambda d: d @ d}),
+                 "1. Multiply each entry by its neighbour", {"pairs": lambda d: d @ d}),
     ("round-the-corner", "your code multiplies the last entry by the first, as with "
-                         "np.roll, but the last and the first entry are not "
-                         "neighbours",
+                         "np.roll. Omit this product, because the last and the first "
+                         "entry are not neighbours",
      {"pairs": lambda d: d @ np.roll(d, 1)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(correlation, **other))
@@ -86,10 +91,11 @@ for slug, says, other in (
 @row.wrongs
 def _(y):
     """two-means: your code uses a separate mean and norm for y[1:] and y[:-1], as
-      np.corrcoef does. Use one mean and all n squares
-    of-the-changes: your result is the autocorrelation of the changes of y. Use y itself
+      np.corrcoef does. Use the mean of y for both, and the sum of all n squares
+    of-the-changes: your result is the autocorrelation of the changes of y. Compute it
+      from y itself
     changes-squared: your result is the Durbin-Watson statistic, which is 2 for white
-      noise. Use the products of neighbours
+      noise. Use the products of neighbouring entries instead
     """
     d = centred(y)
     return {

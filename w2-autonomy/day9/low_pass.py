@@ -46,29 +46,36 @@ def filtered(
 
 
 for slug, says, other in (
-    ("rc-share", "your alpha is dt / (dt + RC), which approximates 1 - exp(-dt / RC) "
-                 "only for low cutoff frequencies", {"alpha": lambda x: x / (1 + x)}),
-    ("share-turned-round", "your code swaps alpha and 1 - alpha. The new sample should "
-                           "get the weight alpha",
+    ("rc-share", "your alpha is dt / (dt + RC) with RC = 1 / (2 pi cutoff). Use 1 - "
+                 "exp(-dt / RC), because your formula is accurate only for low cutoff "
+                 "frequencies",
+     {"alpha": lambda x: x / (1 + x)}),
+    ("share-turned-round", "your code swaps alpha and 1 - alpha. The new sample "
+                           "should get the weight alpha, and the previous output the "
+                           "weight 1 - alpha",
      {"step": lambda y, now, before, a: now + a * (y - now)}),
-    ("euler-share", "your alpha is 2 pi cutoff dt, an Euler step, which overshoots "
-                    "if alpha is above 1. Use the exact solution over dt",
+    ("euler-share", "your alpha is 2 pi cutoff dt, an Euler step, which overshoots if "
+                    "alpha is above 1. Use the exact solution over dt instead, 1 - "
+                    "exp(-2 pi cutoff dt)",
      {"alpha": lambda x: x}),
     ("no-2-pi", "your code omits the factor 2 pi. The argument `cutoff` is in Hz, so "
                 "the time constant is 1 / (2 pi cutoff)",
      {"of": lambda dt, f: f * dt}),
-    ("cutoff-for-time", "your code uses `cutoff` as the time constant, but `cutoff` "
-                        "is a frequency in Hz", {"of": lambda dt, f: dt / f}),
-    ("two-for-e", "your alpha uses powers of 2, as for a half-life, but the decay is "
-                  "exp(-2 pi cutoff dt)",
+    ("cutoff-for-time", "your code uses `cutoff` as the time constant. The time "
+                        "constant is 1 / (2 pi cutoff), because `cutoff` is a "
+                        "frequency in Hz", {"of": lambda dt, f: dt / f}),
+    ("two-for-e", "your code computes alpha with a power of 2, as for a half-life. "
+                  "Use the exponential function instead, so that alpha is 1 - exp(-2 "
+                  "pi cutoff dt)",
      {"alpha": lambda x: 1 - 2.0**-x}),
-    ("from-zero", "your y starts at 0, so the output first has to rise from 0. It "
-                  "should start at x[0]", {"first": lambda x, a: 0.0}),
-    ("first-filtered", "your y starts at alpha x[0], as if the previous output had "
-                       "been 0. It should start at x[0]",
+    ("from-zero", "your output y starts at 0. It should start at x[0]",
+     {"first": lambda x, a: 0.0}),
+    ("first-filtered", "your output y starts at alpha x[0], as if the previous output "
+                       "had been 0. It should start at x[0]",
                        {"first": lambda x, a: a * x[0]}),
     ("by-the-sample-before", "your code uses the previous sample instead of the "
-                             "previous output, so the filter has no memory",
+                             "previous output. Use the previous output, because the "
+                             "filter should remember all earlier samples",
      {"step": lambda y, now, before, a: a * now + (1 - a) * before}),
     ("change-added", "your code adds alpha times the change of x. Add alpha times the "
                      "difference between x and the previous output",
@@ -84,14 +91,15 @@ for slug, says, other in (
 @row.wrongs
 def _(x, dt, cutoff):
     """backwards: your filter runs from the last sample to the first, so it uses samples
-      that are not known yet
-    there-and-back: your filter runs forwards and then backwards, as filtfilt does, but
-      the second pass uses samples that are not known yet
-    what-is-fast: your output is x - y, which is a high-pass filter. Return y
-    not-filtered: your output is x itself, so your code does not filter it
+      that are not known yet. Begin with the first sample
+    there-and-back: your filter runs forwards and then backwards, as filtfilt does. Omit
+      the backward pass, because it uses samples that are not known yet
+    what-is-fast: your output is x - y, the output of a high-pass filter. Return y
+      itself
+    not-filtered: your function returns x unchanged. Return the filtered signal y
     last-left-out: your last output is 0. Does your loop end one sample too early?
-    last-left-out 2: your last output is the last sample. Does your loop end one sample
-      too early?
+    last-left-out 2: your last output is the unfiltered last sample. Does your loop end
+      one sample too early?
     """
     right = low_pass(x, dt, cutoff)
     return {

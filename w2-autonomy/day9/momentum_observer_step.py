@@ -37,22 +37,27 @@ def _(rng):
 
 @row.wrongs
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
-    """gravity-sign: your code uses `gravity` with the wrong sign. The argument is the
+    """gravity-sign: your code adds `gravity`. Subtract it, because the argument is the
       torque that holds the arm, and the weight acts in the opposite direction
-    residual-without-dt: your code adds the old residual to the integral without dt, but
-      a torque times dt is a momentum
-    integral-of-before: your residual uses the old integral. Update the integral first
-    integral-not-handed-on: your code returns the old integral. Return the new one
-    fed-back-times-gain: your code multiplies the old residual by the gain in the
-      integral, but the residual is already a torque
-    low-passed-again: your residual is gain (momentum - integral), filtered by a second
-      low pass. Return this value itself, because the integral already filters it
+    residual-without-dt: your code adds the old residual to the integral without the
+      factor dt. Multiply the residual by dt, because the integral is a momentum and the
+      residual is a torque
+    integral-of-before: your code computes the residual from the old integral. Update
+      the integral first
+    integral-not-handed-on: your code returns the old integral. Return the new integral
+      instead
+    fed-back-times-gain: your integral contains the old residual times the gain. Add the
+      residual without the gain, because it is already a torque
+    low-passed-again: your code adds gain * (momentum - integral) times dt to the old
+      residual. Return gain * (momentum - integral) alone, because the feedback in the
+      integral already makes it a low-pass filter
     residual-kept: your code adds the old residual to the new one. Return the new
       residual alone => both
     residual-taken-off: your code subtracts the old residual from the new one. Return
       the new residual alone
-    new-residual-fed-back: your integral uses a residual that is computed with the new
-      momentum. Use the residual of the previous sample
+    new-residual-fed-back: your code updates the integral with a residual that it
+      computes from the new momentum. Use the argument `residual` instead, the residual
+      of the previous sample
     """
     known = tau + energy_grad - gravity - damping * qd
     now = integral + (known + residual) * dt
@@ -77,7 +82,8 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
 
 
 @row.wrong(
-    "answers-swapped", "your code swaps the two results. Return the residual first"
+    "answers-swapped",
+    "your code swaps the residual and the integral. Return the residual first",
 )
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
     step = momentum_observer_step(

@@ -6,7 +6,7 @@ import numpy as np
 
 from labkit.judge import Row, Vector
 
-row = Row(Vector((2,), names=("the low one", "the high one")))
+row = Row(Vector((2,), names=("the lower end", "the upper end")))
 
 
 @row.inputs
@@ -29,25 +29,26 @@ for slug, says, other in (
     ("multiplied-for-divided", "your code multiplies c by n m, because 2 / 9 * n * m "
                                "divides only by 9. Write 2 / (9 * n * m)",
      {"c": lambda n, m: 2 / 9 * n * m}),
-    ("added-for-multiplied", "your c contains n + m, but the sum of n NIS values has n "
-                             "m degrees of freedom",
+    ("added-for-multiplied", "your c contains n + m. It should contain n m, because "
+                             "the sum of n NIS values has n m degrees of freedom",
      {"c": lambda n, m: 2 / (9 * (n + m))}),
-    ("whole-division", "your c is 0, because // discards the fraction of 2 / (9 n m)",
+    ("whole-division", "your c is 0, because // discards the fraction of 2 / (9 n m). "
+                       "Use the operator / instead",
      {"c": lambda n, m: 2 // (9 * n * m)}),
-    ("shift-forgotten", "your function uses 1 as the mean of the cube root, but the "
-                        "mean is 1 - c", {"middle": lambda c: 1.0}),
-    ("shift-sign", "your function uses 1 + c as the mean of the cube root, but the "
-                   "mean is 1 - c", {"middle": lambda c: 1 + c}),
-    ("ninety", "your function uses 1.645 standard deviations, which contain 90 % of a "
-     "Gaussian. Use 1.96 for 95 %", {"z": 1.645}),
-    ("two-sigma", "your function uses 2 standard deviations, which contain 95.4 % of a "
-     "Gaussian. Use 1.96 for 95 %", {"z": 2.0}),
-    ("ninety-nine", "your function uses 2.576 standard deviations, which contain 99 % "
-     "of a Gaussian. Use 1.96 for 95 %", {"z": 2.576}),
+    ("shift-forgotten", "your function uses 1 as the mean of the cube root. Use 1 - c "
+                        "instead", {"middle": lambda c: 1.0}),
+    ("shift-sign", "your function uses 1 + c as the mean of the cube root. Use 1 - c "
+                   "instead", {"middle": lambda c: 1 + c}),
+    ("ninety", "your function uses 1.645 standard deviations, which enclose 90 % of a "
+               "Gaussian. Use 1.96 for 95 %", {"z": 1.645}),
+    ("two-sigma", "your function uses 2 standard deviations, which enclose 95.4 % of "
+                  "a Gaussian. Use 1.96 for 95 %", {"z": 2.0}),
+    ("ninety-nine", "your function uses 2.576 standard deviations, which enclose 99 % "
+                    "of a Gaussian. Use 1.96 for 95 %", {"z": 2.576}),
     ("more-digits", "your function uses 1.959964 standard deviations. Use 1.96, as "
                     "in the task",
      {"z": 1.959964}),
-    ("m-cubed", "your code also cubes m. Multiply by m after the cube",
+    ("m-cubed", "your code also cubes m. Multiply the cube by m instead",
      {"front": lambda n, m: m**3}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(interval, **other))
@@ -56,10 +57,13 @@ for slug, says, other in (
 @row.wrongs
 def _(n, m):
     """normal: your interval m +- 1.96 sqrt(2 m / n) treats the mean NIS as Gaussian.
-      Its distribution is skewed, and only its cube root is nearly Gaussian
+      The distribution of the mean NIS is skewed, so compute the interval of its cube
+      root, which is nearly Gaussian
     one-over-n: your interval m +- 1.96 / sqrt(n) assumes a standard deviation of 1 for
-      each NIS, but the standard deviation is sqrt(2 m)
-    cube-inside: your code cubes 1 - c and 1.96 sigma separately. Cube their sum
+      each NIS. Use the interval of the cube root instead, because a NIS has a standard
+      deviation of sqrt(2 m) and a skewed distribution
+    cube-inside: your code cubes 1 - c and 1.96 sqrt(c) separately. Cube their sum and
+      their difference
     """
     c = 2 / (9 * n * m)
     half = 1.96 * np.sqrt(2 * m / n)

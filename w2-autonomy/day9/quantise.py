@@ -36,28 +36,31 @@ def counted(
 
 
 for slug, says, other in (
-    ("floor", "your code rounds the counts down, but an encoder reports the nearest "
-              "count", {"whole": np.floor}),
-    ("towards-zero", "your code rounds the counts towards 0, as int() does, but an "
-                     "encoder reports the nearest count", {"whole": np.trunc}),
-    ("middle-of-a-count", "your code rounds the counts down and adds half a count, but "
-                          "an encoder reports the nearest whole count",
+    ("floor", "your code rounds the counts down. Round them to the nearest integer "
+              "instead, because an encoder reports the nearest count",
+     {"whole": np.floor}),
+    ("towards-zero", "your code rounds the counts towards 0, as int() does. Round "
+                     "them to the nearest integer instead, because an encoder reports "
+                     "the nearest count", {"whole": np.trunc}),
+    ("middle-of-a-count", "your code rounds the counts down and adds half a count. "
+                          "Round them to the nearest integer instead, because an "
+                          "encoder reports whole counts",
      {"whole": lambda k: np.floor(k) + 0.5}),
     ("one-count-fewer", "your code divides a revolution by counts - 1, which omits "
-                        "the step from the last count back to the first. Divide it "
-                        "by `counts`",
+                        "the step from the last count back to the first. Divide the "
+                        "revolution by `counts`",
      {"step": lambda n: 2 * np.pi / (n - 1)}),
-    ("no-pi", "your angle per count is 1 / counts. It should be 2 pi / counts, because "
-     "q is in radians", {"step": lambda n: 1 / n}),
-    ("in-degrees", "your angle per count is 360 / counts, in degrees. It should "
-     "be in radians, as q is", {"step": lambda n: 360 / n}),
+    ("no-pi", "your angle per count is 1 / counts. It should be 2 pi / counts, "
+              "because one revolution is 2 pi radians", {"step": lambda n: 1 / n}),
+    ("in-degrees", "your angle per count is 360 / counts, in degrees. It should be 2 "
+                   "pi / counts, because q is in radians", {"step": lambda n: 360 / n}),
     ("step-inverted", "your resolution is counts / (2 pi). The angle per "
      "count should be 2 pi / counts, because one revolution has `counts` counts",
      {"step": lambda n: n / (2 * np.pi)}),
     ("in-counts", "your output is in counts. It should be an angle in radians",
      {"told": lambda k, step: k}),
     ("two-pi-alone", "your code divides the number of counts by 2 pi. Multiply this "
-                     "number by the angle of one count",
+                     "number by the angle of one count instead",
      {"told": lambda k, step: k / (2 * np.pi)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(counted, **other))
@@ -74,8 +77,8 @@ row.of_argument(
     "q",
     Change(
         "wrapped",
-        "your code wraps q to the range from 0 to 2 pi. A negative angle should stay "
-        "negative",
+        "your code wraps q to [0, 2 pi). Omit this step, because a negative angle "
+        "should stay negative",
         lambda q: np.mod(q, 2 * np.pi),
     ),
 )

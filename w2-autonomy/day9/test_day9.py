@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from conftest import ROOT, load_script
+from conftest import ROOT, load_script, printed_by, sentences
 from robo47 import dynamics, estimation, panda, simulate
 from robo47.references import raised_cosine
 from robo47.screws import skew
@@ -19,9 +19,7 @@ from robo47.screws import skew
 import day9_mujoco
 from day9_mujoco import STAY, SWING
 
-GUIDE = (ROOT / "w2-autonomy/docs/day9-lab.md").read_text("utf-8")
-OWN = re.sub(r"<!-- run.*?<!-- end -->", "", GUIDE, flags=re.S)
-SENTENCES = " ".join(OWN.replace("*", "").split())
+SENTENCES = sentences(9)
 lab = load_script(ROOT / "w2-autonomy/src/day9_estimation.py")
 model = panda.load("panda_nohand", drive="torque")
 arm = panda.arm(model)
@@ -47,19 +45,7 @@ def printed():
     told = {"noise of a 16-bit difference, rad/s": "0.0196",
             "detection time of a 10 N push, ms": "4",
             "residual of joint 4, N m": "-4.7"}  # fmt: skip
-    with (
-        patch("sys.argv", ["lab", "--no-log"]),
-        patch("labkit.lesson.lab.predictions", lambda worksheet: told),
-        redirect_stdout(io.StringIO()) as out,
-    ):
-        assert lab.main() == 0
-    assert all(len(line) <= 80 for line in out.getvalue().splitlines())
-    return out.getvalue()
-
-
-def numbers_in(words):
-    """Return the numbers of a list in a sentence."""
-    return [float(x) for x in re.findall(r"-?\d+\.\d+", words)]
+    return printed_by(lab, told)
 
 
 def largest(residual):
@@ -232,7 +218,7 @@ def test_the_ratio_decides_the_autocorrelation_and_the_scale_decides_the_nis():
         row = (
             f"| {a} | {b} | {one['error']:.4f} | {one['nis']:.3f} | {one['lag1']:.3f} |"
         )
-        assert row in GUIDE
+        assert row in SENTENCES
     for one, other, scale in (
         ((1, 1), (10, 10), 10), ((0.1, 1), (1, 10), 10), ((0.01, 1), (0.1, 10), 10)
     ):  # fmt: skip

@@ -46,26 +46,24 @@ row.cases(
 
 @row.wrongs
 def _(theta, grad, m, v, k, rate):
-    """no-correction: your averages are not divided by 1 - 0.9^k and 1 - 0.999^k.
-      They start at 0, so without the division they are too small at first
-    corrected-kept: in your code, the divided averages are returned. Return m and v
-      without the division: it is for the update only, and the next step would
-      divide again
-    eps-in-the-root: in your code, 1e-8 is added inside the square root. Add it to
-      the root
-    betas-swapped: in your code, the decay rates 0.9 and 0.999 are swapped
-    weights-swapped: your new gradient has the weight 0.9 and its square 0.999.
-      These are the weights of the old averages, so that a step depends on many
-      gradients
-    weight-1: your new gradient and its square have the weight 1, as momentum is
-      often written. In Adam they have the weights 0.1 and 0.001, so that m and v
-      are averages
-    times-for-power: your averages are divided by 1 - 0.9 k and 1 - 0.999 k. The
-      decay rates are raised to the power k
-    old-averages: your update uses m and v as they were before this step. Update
-      both first
-    corrections-swapped: in your code, m is divided by 1 - 0.999^k and v by 1 -
-      0.9^k. Each average has its own decay rate
+    """no-correction: your code omits the bias correction of the averages m and v.
+      Divide m by 1 - 0.9^k and v by 1 - 0.999^k, because both averages start at 0
+    corrected-kept: your code returns the corrected averages. Return m and v without the
+      correction, because the next step would correct them again
+    eps-in-the-root: your code adds 1e-8 inside the square root. Add it outside instead,
+      after taking the square root
+    betas-swapped: your code swaps the decay rates. The rate of m is 0.9, and the rate
+      of v is 0.999
+    weights-swapped: your code gives the gradient the weight 0.9 and its square the
+      weight 0.999. Give these weights to the old averages m and v
+    weight-1: your code gives the gradient and its square the weight 1. In Adam the
+      weights are 0.1 and 0.001, so that m and v are averages
+    times-for-power: your code divides the averages by 1 - 0.9 k and 1 - 0.999 k. Raise
+      the decay rates to the power k instead
+    old-averages: your code updates theta with the old averages m and v. Update m and v
+      first
+    corrections-swapped: your code divides m by 1 - 0.999^k and v by 1 - 0.9^k. Swap the
+      two corrections, because the decay rate of m is 0.9
     """
     m1 = 0.9 * m + 0.1 * grad
     v1 = 0.999 * v + 0.001 * grad**2

@@ -31,19 +31,20 @@ row.cases(
 
 @row.wrongs
 def _(phi, distance, R):
-    """small-angle: your function uses phi exp(distance / R), which holds for small
-      angles only, where sin(phi) is almost phi. Integrate with sin(phi)
-    one-step: your function adds distance sin(phi) / R once. The rate sin(phi) / R
-      changes along the path, so integrate it
-    whole-angle: your function lets tan(phi) grow exponentially. It is tan(phi / 2)
-      that grows so, because d(phi)/ds = sin(phi) / R
-    linear-growth: in your code, tan(phi / 2) is increased by tan(phi / 2) distance
-      / R once. Its rate of change is proportional to its present value, so it grows
-      exponentially
-    sine-grows: your function lets sin(phi) grow exponentially, which holds for
-      small angles only. It is tan(phi / 2) that grows so
-    sine-grows 2: your function lets sin(phi) grow exponentially, which holds for
-      small angles only. It is tan(phi / 2) that grows so
+    """small-angle: your function returns phi * exp(distance / R). This is correct only
+      for small angles, where sin(phi) is almost phi. Integrate d(phi)/ds = sin(phi) / R
+      instead
+    one-step: your function adds distance * sin(phi) / R once. The rate sin(phi) / R
+      changes along the path, so integrate the rate
+    whole-angle: your function multiplies tan(phi) by exp(distance / R). Multiply
+      tan(phi / 2) by this factor, because d(phi)/ds = sin(phi) / R
+    linear-growth: your code multiplies tan(phi / 2) by 1 + distance / R. The rate of
+      change of tan(phi / 2) is proportional to its value, so the factor should be an
+      exponential
+    sine-grows: your function multiplies sin(phi) by exp(distance / R), which is correct
+      only for small angles. Multiply tan(phi / 2) by this factor
+    sine-grows 2: your function multiplies sin(phi) by exp(distance / R), which is
+      correct only for small angles. Multiply tan(phi / 2) by this factor
     """
     grown = np.sin(phi) * np.exp(distance / R)
     return {

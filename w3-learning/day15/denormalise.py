@@ -18,23 +18,24 @@ def _(rng):
 
 @row.wrong
 def mean_first(z, scaler):
-    """in your code, the mean is added before the multiplication, so it is scaled as
-    well. Undo the steps of `normalise` in the opposite order: multiply, then add"""
+    """your code adds the mean before the multiplication, so the standard deviation also
+    scales the mean. Undo the steps of `normalise` in reverse order: first multiply,
+    then add"""
     return (z + scaler[0]) * scaler[1]
 
 
 @row.wrong
 def normalised_again(z, scaler):
-    """in your code, the mean is subtracted and the difference divided, as in
-    `normalise`. Undo these steps: multiply by the standard deviation, then add the
-    mean"""
+    """your code subtracts the mean and divides by the standard deviation, as
+    `normalise` does. Undo these steps: first multiply by the standard deviation, then
+    add the mean"""
     return (z - scaler[0]) / scaler[1]
 
 
 @row.wrong
 def own_statistics(z, scaler):
-    """in your code, the mean and the standard deviation are computed from z itself.
-    Use those in the scaler, with which `normalise` was called"""
+    """your code computes the mean and the standard deviation from z. Use the argument
+    `scaler`, with which the data were normalised"""
     spread = z.std(axis=0)
     return z * np.where(spread == 0, 1, spread) + z.mean(axis=0)
 

@@ -27,27 +27,27 @@ row.cases(
 
 @row.wrongs
 def _(x):
-    """n-minus-one: your standard deviation divides by n - 1. Divide by n, so that
-      normalised columns have a standard deviation of exactly 1
-    about-0: your second row is the root mean square, the standard deviation about
-      0. Subtract the mean first
-    one-for-all: in your code, one mean and one standard deviation are used for all
-      columns. Each column has its own unit and its own scale
-    spread-for-all: in your code, one standard deviation is used for all columns.
-      Each column has its own unit and its own scale
-    variance: your second row is the variance. Take its square root
-    deviation: your second row is the mean absolute deviation. Take the root of the
-      mean square of the deviations
-    min-max: your smallest entry and the range are returned. Return the mean and the
-      standard deviation, which depend less on a single row
-    constant-0: in your code, a constant column has a standard deviation of 0, so
+    """n-minus-one: your code divides by n - 1 in the standard deviation. Divide by n,
+      so that normalised columns have a standard deviation of exactly 1
+    about-0: your second row is the root mean square. Subtract the mean first, so that
+      the result is the standard deviation
+    one-for-all: your code uses one mean and one standard deviation for all columns.
+      Each column has its own unit and its own scale, so use axis=0
+    spread-for-all: your code uses one standard deviation for all columns. Each column
+      has its own unit and its own scale, so use axis=0
+    variance: your second row is the variance. Take the square root of the variance
+    deviation: your second row is the mean absolute deviation. Take the root of the mean
+      squared deviation instead
+    min-max: your code returns the minimum and the range of each column. Return the mean
+      and the standard deviation instead
+    constant-0: your code returns a standard deviation of 0 for a constant column, so
       `normalise` would divide by 0. Return 1 for such a column
-    about-0 2: your second row is the root mean square, the standard deviation about
-      0. Subtract the mean first
-    one-for-all 2: in your code, one mean and one standard deviation are used for
-      all columns. Each column has its own unit and its own scale
-    spread-for-all 2: in your code, one standard deviation is used for all columns.
-      Each column has its own unit and its own scale
+    about-0 2: your second row is the root mean square. Subtract the mean first, so that
+      the result is the standard deviation
+    one-for-all 2: your code uses one mean and one standard deviation for all columns.
+      Each column has its own unit and its own scale, so use axis=0
+    spread-for-all 2: your code uses one standard deviation for all columns. Each column
+      has its own unit and its own scale, so use axis=0
     """
     mean = x.mean(axis=0)
     std = x.std(axis=0)

@@ -29,7 +29,7 @@ POLICIES = (
 )
 PIXELS = 10  # of a unit's side
 CIRCLE = np.linspace(0, 2 * np.pi, 40)
-UP = day15_mujoco.PUCK  # m, the height of both centres above the table
+UP = 0.02  # m, the height of the puck, and of what is drawn of its path
 
 
 class Trained(NamedTuple):
@@ -53,8 +53,8 @@ class Seen(NamedTuple):
 
 
 def above(points: Array) -> Array:
-    """Return points of the plane at the height of the centres, (n, 3)."""
-    return np.column_stack([points, np.full(len(points), UP)])
+    """Return points of the plane as they are drawn: above the puck, (n, 3)."""
+    return np.column_stack([points, np.full(len(points), 1.1 * UP)])
 
 
 @cache
@@ -88,7 +88,7 @@ class Clone(ui.Declared):
         "fit_scaler": "", "normalise": "", "mlp": "", "denormalise": "m/s",
     }  # fmt: skip
     arm_hidden = True
-    camera = ((0.0, -0.45, 0.6), (0.0, 0.08, 0.0))
+    camera = ((0.16, -0.42, 0.6), (0.13, 0.08, 0.0))
 
     policy = ui.choice("policy", POLICIES)
     far = ui.slider("puck: distance from home", 0.1, 0.5, 0.25, "m")
@@ -112,8 +112,9 @@ class Clone(ui.Declared):
         legend="home",
     )
     best = ui.scene.lines(ui.NOWHERE, "white", legend="the puck by the library")
-    puck = ui.yours.sphere(np.zeros(3), day15_mujoco.PUCK, "orange", 0.6, legend="puck")
-    pusher = ui.yours.sphere(np.zeros(3), day15_mujoco.PUSHER, "red", legend="pusher")
+    way = ui.yours.lines(ui.NOWHERE, "orange", 4.0, legend="the puck by your functions")
+    puck = ui.yours.disc(day15_mujoco.PUCK, UP, "orange")
+    pusher = ui.yours.disc(day15_mujoco.PUSHER, 3 * UP, "blue", legend="pusher")
 
     def ask(self, fns, at) -> Seen:
         rows = self.observed(at)
@@ -154,6 +155,7 @@ class Clone(ui.Declared):
     def show(self, yours: Seen, right: Seen) -> None:
         self.seen = yours
         self.best.points = joined(right.path)
+        self.way.points = joined(yours.path)
         known = trained(self.policy != POLICIES[0]).inputs
         scaler = cloning.fit_scaler(known)
         known = cloning.normalise(known, scaler)[::4]
@@ -173,8 +175,8 @@ class Clone(ui.Declared):
         k = min(int(at), steps - 1)
         now, then = self.seen.run.observation[0, k : k + 2]
         one = now + (at - k) * (then - now)
-        self.pusher.position = np.array([*one[:2], UP])
-        self.puck.position = np.array([*one[2:], UP])
+        self.pusher.position = np.array([*one[:2], 1.5 * UP])
+        self.puck.position = np.array([*one[2:], UP / 2])
         self.image.image = self.activations(self.seen.inputs[k])
         return at < steps
 

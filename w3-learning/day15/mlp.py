@@ -21,10 +21,10 @@ row = Row(
     held_out=[
         HeldOut(
             "imaginary-lost",
-            "Your function is right for real weights, but it loses the imaginary part "
-            "of complex ones. The lab tests your gradient with the complex step, so "
-            "use operations that keep it: no float(), .real or np.maximum, and no "
-            "array of floats that you fill.",
+            "Your function is correct for real weights, but it loses the imaginary "
+            "part of complex weights. The lab tests your gradient with the complex "
+            "step. Do not use float(), .real or np.maximum, and do not write results "
+            "into an array of real numbers.",
             complex_ones,
         )
     ],
@@ -42,11 +42,11 @@ def _(rng):
 
 @row.wrongs
 def _(x, W1, b1, W2, b2, W3, b3):
-    """tanh-at-the-end: your output layer has a tanh as well. It is linear, so that
-      an action can be any number
-    relu: in your code, the layers use max(0, .) instead of tanh
-    logistic: in your code, the layers use the logistic function 1 / (1 + exp(-.))
-      instead of tanh
+    """tanh-at-the-end: your code applies tanh to the output as well. The output layer
+      should be linear, because an action can be any number
+    relu: your code applies max(0, z) in the hidden layers. Use tanh(z) instead
+    logistic: your code applies the logistic function 1 / (1 + exp(-z)) in the hidden
+      layers. Use tanh(z) instead
     """
 
     def by(f):

@@ -13,8 +13,9 @@ row = Row(
             "^ValueError.*matmul",
             r"\b[dDgGe]\w* ?@ ?W[23]\b(?!\.(T|mT|transpose))",
             "not-transposed",
-            "Your function stops because a weight matrix is not transposed. On the way "
-            "back, a gradient (n, outputs) is multiplied by W^T, (outputs, inputs).",
+            "Your function stops because a weight matrix is not transposed. In the "
+            "backward pass, multiply a gradient of shape (n, outputs) by W^T, whose "
+            "shape is (outputs, inputs).",
         ),
     ),
 )
@@ -62,39 +63,41 @@ def backwards(
 
 @row.wrongs
 def _(x, target, W1, b1, W2, b2, W3, b3):
-    """slope-forgotten: in your code, the derivative of tanh is missing. Each
-      layer's gradient is multiplied by 1 - h^2, where h is the layer's output
-    slope-squared: in your code, the derivative of tanh is squared. Multiply by 1 -
-      h^2 once per layer
-    slope-1-minus-h: in your code, the derivative of tanh is computed as 1 - h. It
-      is 1 - h^2
-    slope-logistic: in your code, the derivative is h (1 - h), which belongs to the
-      logistic function. The derivative of tanh is 1 - h^2
-    slope-of-h: in your code, the derivative of tanh is computed as 1 - tanh(h)^2
-      from the layer's output h. The output is tanh already, so the derivative is 1
-      - h^2
-    slope-of-z: in your code, the derivative of tanh is computed as 1 - z^2 from the
-      layer's value z before tanh. It is 1 - h^2, where h is the layer's output
-    slope-not-passed-on: your gradient that goes back to the first layer lacks the
-      derivative of the second tanh. Multiply by 1 - h^2 before the next step back
-    tanh-at-the-end: your output has a tanh as well. The last layer of `mlp` is
-      linear
-    tanh-at-the-end 2: your output has a tanh as well, and its derivative. The last
-      layer of `mlp` is linear
-    divided-twice: in your code, every gradient is divided by the number of rows
-      a second time. The loss has the factor 1 / (n m) already, so sum over the rows
-    weights-mean: your gradients of the weights are means over the rows. The loss
-      has the factor 1 / (n m) already, so H^T D needs no division
-    slope-at-the-end: your gradient with respect to the output is multiplied by a
-      derivative of tanh. The last layer is linear, so its derivative is 1
-    transposed: your gradients of the weights are transposed. The gradient of W is
-      H^T D, in the shape of W
-    bias-mean: your gradients of the biases are means over the rows. The loss has
-      the factor 1 / (n m) already, so sum over the rows
-    summed-loss: your gradient belongs to the sum of the squares. The loss is their
-      mean, so divide by n m
-    rows-only: your gradient is divided by the number of rows. The loss is a mean
-      over rows and columns, so divide by n m
+    """slope-forgotten: your code omits the derivative of tanh. Multiply the gradient
+      with respect to the output h of each hidden layer by 1 - h^2
+    slope-squared: your code squares the derivative of tanh. Multiply the gradient with
+      respect to the output h of each hidden layer by 1 - h^2 only once
+    slope-1-minus-h: your derivative of tanh is 1 - h, where h is the output of the
+      hidden layer. It should be 1 - h^2
+    slope-logistic: your code uses h (1 - h), the derivative of the logistic function.
+      Use 1 - h^2 instead, where h is the output of the hidden layer
+    slope-of-h: your derivative of tanh is 1 - tanh(h)^2, where h is the output of the
+      hidden layer. Use 1 - h^2, because h is already a tanh
+    slope-of-z: your derivative of tanh is 1 - z^2, where z is the value of the hidden
+      layer before tanh. Use 1 - h^2 with the output h = tanh(z)
+    slope-not-passed-on: your gradients with respect to W1 and b1 omit the derivative of
+      the second tanh. Multiply by 1 - h^2 of the second hidden layer before you
+      multiply by W2^T
+    tanh-at-the-end: your code applies tanh to the output. The last layer of `mlp` is
+      linear, so omit this tanh
+    tanh-at-the-end 2: your code applies tanh to the output and multiplies by its
+      derivative. The last layer of `mlp` is linear, so omit both
+    divided-twice: your code divides every gradient by the number of rows a second time.
+      The gradient of the loss already contains the factor 1 / (n m), so sum over the
+      rows
+    weights-mean: your gradients with respect to the weights are means over the rows.
+      The gradient of the loss already contains the factor 1 / (n m), so sum over the
+      rows
+    slope-at-the-end: your gradient with respect to the output contains a derivative of
+      tanh. The last layer is linear, so omit this factor
+    transposed: your gradients with respect to the weights are transposed. Each gradient
+      should have the shape of its weight matrix
+    bias-mean: your gradients with respect to the biases are means over the rows. The
+      gradient of the loss already contains the factor 1 / (n m), so sum over the rows
+    summed-loss: your gradients belong to the sum of the squared errors. The loss is the
+      mean of the squared errors, so divide by n m
+    rows-only: your code divides the gradient only by the number of rows. The loss is a
+      mean over rows and columns, so divide by n m
     """
     given = x, target, (W1, b1, W2, b2, W3, b3)
     slopes = {

@@ -25,18 +25,19 @@ row.cases(
 
 @row.wrongs
 def _(pred, target):
-    """summed-over-columns: in your code, the squares are summed over the columns
-      and averaged over the rows. Take the mean over all n m entries
-    summed-over-columns 2: your loss sums the squares over the columns and averages
-      them over the rows. Take the mean over all n m entries
-    absolute: your loss is the mean of the absolute errors. Take the mean of their
-      squares
+    """summed-over-columns: your loss is a sum over the columns and a mean over the
+      rows, and your gradient belongs to this loss. Take the mean over all n m entries
+      instead
+    summed-over-columns 2: your loss is a sum over the columns and a mean over the rows.
+      Take the mean over all n m entries instead
+    absolute: your loss is the mean absolute error. Return the mean squared error
+      instead
     not-divided: your gradient is 2 (pred - target). The loss is a mean over n m
-      entries, so divide the gradient by n m as well
-    divided-by-rows: your gradient is divided by the number of rows. The loss is a
-      mean over rows and columns, so divide by n m
-    half: your loss and its gradient are half as large, as for the convention
-      error^2 / 2
+      entries, so divide the gradient by n m
+    divided-by-rows: your code divides the gradient only by the number of rows. The loss
+      is a mean over rows and columns, so divide by n m
+    half: your loss and its gradient contain a factor of 1/2. Omit it, because the loss
+      of this task is the mean of the squared errors
     """
     e = pred - target
     n = len(e)

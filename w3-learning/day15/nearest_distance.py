@@ -17,20 +17,21 @@ def _(rng):
 
 @row.wrongs
 def _(known, asked):
-    """squared: your result is the squared distance. Take the root
-    from-known: your distance is from each known row to the nearest asked row.
-      Return one distance per asked row
-    column-by-column: in your code, the nearest value is chosen in each column
-      separately. The nearest row is one row
-    mean-distance: your result is the mean of the distances to all known rows.
-      Return the smallest of them
-    to-the-mean: your distance is that to the mean of the known rows. Return the
-      distance to the nearest of them
-    index: your index of the nearest row is returned. Return the distance to it
-    one-for-all: in your code, one distance is returned for all asked rows, the
-      smallest of all. Each asked row has a nearest row of its own
-    city-block: your distance is the sum of the absolute differences. It should be
-      Euclidean
+    """squared: your result is the squared distance. Return its square root
+    from-known: your code returns the distance from each known row to the nearest asked
+      row. Return the distance from each asked row to the nearest known row
+    column-by-column: your code chooses the nearest value in each column separately.
+      Choose one nearest row for all columns
+    mean-distance: your result is the mean of the distances to all known rows. Return
+      the smallest distance instead
+    to-the-mean: your result is the distance to the mean of the known rows. Return the
+      distance to the nearest known row instead
+    index: your code returns the index of the nearest row. Return the distance to this
+      row instead
+    one-for-all: your code returns the smallest of all distances for every asked row.
+      Each asked row has its own nearest row
+    city-block: your distance is the sum of the absolute differences. Return the
+      Euclidean distance instead
     """
     apart = known[:, None] - asked
     d = np.linalg.norm(apart, axis=2)

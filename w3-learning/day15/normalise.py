@@ -20,24 +20,23 @@ row.inputs(draw)
 
 @row.wrong
 def own_statistics(x, scaler):
-    """in your code, the mean and the standard deviation are computed from x itself.
-    Use those in the scaler, which are from the training rows: a robot normalises one
-    row at a time"""
+    """your code computes the mean and the standard deviation from x. Use the argument
+    `scaler` instead, because x may be a single row"""
     spread = x.std(axis=0)
     return (x - x.mean(axis=0)) / np.where(spread == 0, 1, spread)
 
 
 @row.wrong
 def first_column(x, scaler):
-    """in your code, the mean and the standard deviation of the first column are used
-    for all columns. The rows of the scaler are scaler[0] and scaler[1]"""
+    """your code uses the mean and the standard deviation of the first column for all
+    columns. Use the whole rows scaler[0] and scaler[1]"""
     return (x - scaler[0, 0]) / scaler[1, 0]
 
 
 @row.wrong(hidden="the lab's checks are on the rows of the training")
 def own_mean(x, scaler):
-    """in your code, the mean of x itself is subtracted. Use the mean in the scaler,
-    which is from the training rows: a robot normalises one row at a time"""
+    """your code subtracts the mean of x. Subtract the mean in the argument `scaler`
+    instead, because x may be a single row"""
     return (x - x.mean(axis=0)) / scaler[1]
 
 

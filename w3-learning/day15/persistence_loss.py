@@ -12,7 +12,8 @@ row = Row(
             r"np\.diff\(\s*action\s*\)",
             "last-axis",
             "Your function stops because np.diff(action) takes the differences of "
-            "adjacent columns. With axis=0 it takes those of adjacent rows.",
+            "adjacent columns. With axis=0, the function takes the differences of "
+            "adjacent rows.",
         ),
     ),
 )
@@ -48,27 +49,28 @@ row.cases(
     }
 )
 def _(action, episode):
-    """across-episodes: in your code, the change from the last row of an episode to
-      the first row of the next one is included. The policy repeats no action of
-      another episode: leave these pairs out
-    start-from-0: your first row of each episode is included, with a last action of
-      0. This row has no last action: leave it out
-    counted-as-0: your pairs across two episodes are counted as changes of 0. Leave
-      them out of the mean
-    summed-over-columns: in your code, the squares are summed over the columns. Take
-      the mean over the columns, as `mse` does
-    mean-of-means: your result is the mean of one mean per episode. Take one mean
-      over all pairs, so that each pair has the same weight
-    mean-of-means 2: your result is the mean of one mean per episode. Take one mean
-      over all pairs, so that each pair has the same weight
-    mean-action: your result is the loss of the mean action, which is the variance.
-      Use the action of the row before as the prediction
-    divided-by-all: in your code, the squares are divided by the number of all
-      entries. An episode with n rows has n - 1 pairs: take the mean over the pairs
-    across-columns: your difference is taken from one column to the next. A change
-      is from one row to the next, along axis 0
-    by-number: in your code, all rows with the same number are joined, but the
-      number comes again in a later episode. Only adjacent rows are pairs
+    """across-episodes: your code includes the change from the last row of an episode to
+      the first row of the next episode. Omit these pairs, because the policy repeats an
+      action only within an episode
+    start-from-0: your code includes the first row of each episode and uses 0 as its
+      previous action. Omit this row, because it has no previous action
+    counted-as-0: your code counts the pairs across two episodes as changes of 0. Omit
+      these pairs from the mean
+    summed-over-columns: your code sums the squares over the columns. Take the mean over
+      the columns, as `mse` does
+    mean-of-means: your result is the mean of the mean values of the episodes. Take one
+      mean over all pairs, so that each pair has the same weight
+    mean-of-means 2: your result is the mean of the mean values of the episodes. Take
+      one mean over all pairs, so that each pair has the same weight
+    mean-action: your result is the loss of a policy that always returns the mean
+      action. Use the action of the previous row as the prediction
+    divided-by-all: your code divides the sum of the squares by the number of all
+      entries. An episode with n rows has only n - 1 pairs, so take the mean over the
+      pairs
+    across-columns: your code takes the differences between columns. Take the
+      differences between rows, along axis 0 instead
+    by-number: your code joins all rows with the same episode number, although this
+      number can occur again in a later episode. Use only pairs of adjacent rows
     """
     change = action[1:] - action[:-1]
     same = episode[1:] == episode[:-1]

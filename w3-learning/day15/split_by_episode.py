@@ -31,23 +31,23 @@ def _(rng):
     }
 )
 def _(episode, held_out):
-    """rows-for-episodes: your numbers in held_out are used as indices of rows. They
-      are numbers of episodes: hold out every row whose entry in episode is one of
-      them
-    as-many-rows: in your code, the last rows are held out, as many as held_out has
-      entries. Rows of one episode are then in both parts
-    sixty-rows: your index of a row divided by 60 is used as its episode. Use the
-      numbers in episode, which also hold for episodes of other lengths
-    training-rows: your mask is True for the rows of the training. It is True for
-      the rows that are held out
-    swapped: in your code, the arguments of `np.isin` are swapped, so the result has
-      one entry per held-out episode. Return one entry per row
-    indices: in your code, the indices of the held-out rows are returned. Return a
-      mask: True or False for every row
-    as-a-range: in your code, all episodes from the smallest to the largest number in
-      held_out are held out. Hold out those alone whose numbers are in held_out
-    positions: in your code, episodes are counted from 0 in ascending order, and
-      held_out is compared with this count. Compare it with the numbers in episode
+    """rows-for-episodes: your code uses the numbers in held_out as indices of rows.
+      They are numbers of episodes, so hold out every row whose entry in `episode` is
+      one of these numbers
+    as-many-rows: your code holds out the last len(held_out) rows. This can split an
+      episode, so hold out all rows of each held-out episode
+    sixty-rows: your code divides the index of a row by 60 to obtain its episode. Use
+      the numbers in `episode`, because an episode need not have 60 rows
+    training-rows: your mask is True for the training rows. It should be True for the
+      rows that are held out
+    swapped: your code swaps the arguments of `np.isin`, so the result has one entry per
+      held-out episode. Return one entry per row
+    indices: your code returns the indices of the held-out rows. Return a mask with True
+      or False for every row
+    as-a-range: your code holds out all episodes from the smallest to the largest number
+      in held_out. Hold out only the episodes whose numbers are in held_out
+    positions: your code counts the episodes from 0 in ascending order and compares
+      these counts with held_out. Compare the numbers in `episode` with held_out instead
     """
     rows = np.arange(len(episode))
     return {
