@@ -233,8 +233,7 @@ def pixel_grid(
         margin: number of further points of the finer grid at each end.
     """
     n = finer * (side - 1) + 1 + 2 * margin
-    at: Array = cell / finer * (np.arange(n) - (n - 1) / 2)
-    return at
+    return np.asarray(cell / finer * (np.arange(n) - (n - 1) / 2), dtype=np.float64)
 
 
 def spot_images(points: ArrayLike, xs: ArrayLike, ys: ArrayLike, sigma: float) -> Array:
