@@ -146,7 +146,10 @@ def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
         return T
 
     says = told(2, "2.4", exp_screw=exp_screw)
-    assert "One sign is reversed, as in `(theta + s) * K @ K` or `" in says
+    assert (
+        "One sign is reversed, which gives the wrong expression "
+        "`(theta + s) * K @ K` or `"
+    ) in says
     assert "gives the same output" in says
 
 

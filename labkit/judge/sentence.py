@@ -79,7 +79,7 @@ def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
     if len(found) > 1 and all(texts):
         some = list(dict.fromkeys(what(one) for one in found))
         says = f"either {', or '.join(some)}" if len(some) > 1 else some[0]
-        says += f", as in {' or '.join(texts)}"
+        says += f"{WRITTEN} {' or '.join(texts)}"
     how = m.with_error(f"{REDONE} {evidence(True)}")
     return Finding(f"slip-{found[0].kind}", f"{capitalised(says)}. {how}")
 
@@ -101,6 +101,7 @@ def shows(m: Any, mutant: Mutant) -> bool:
     return bool(own_line(m, mutant) or known_text(m, mutant) or glosses(mutant))
 
 
+WRITTEN = ", which gives the wrong expression"
 LONG = 80  # characters; a longer line is named by its number alone
 COMPARES = (ast.Compare, ast.IfExp, ast.BoolOp)
 CHOOSES = ("where", "clip", "min", "max", "minimum", "maximum", "argmin", "argmax")
@@ -143,7 +144,7 @@ def told(m: Any, mutant: Mutant) -> str:
         code = f", `{line.text}`" if len(line.text) <= LONG else ""
         return f"in line {line.number}{code}, {what(mutant, line)}"
     if text := known_text(m, mutant):
-        return f"{what(mutant)}, as in {text}"
+        return f"{what(mutant)}{WRITTEN} {text}"
     says = f"{what(mutant)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
         return says
