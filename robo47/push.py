@@ -222,7 +222,8 @@ def on_the_left(episodes: Episodes) -> NDArray[np.bool_]:
     left = _left(-puck)[:, None]
     beside = np.sum((episodes.observation[..., :2] - puck[:, None]) * left, axis=2)
     most = np.argmax(np.abs(beside), axis=1)
-    return np.take_along_axis(beside, most[:, None], axis=1)[:, 0] > 0
+    left_of_it: NDArray[np.bool_] = beside[np.arange(len(most)), most] > 0
+    return left_of_it
 
 
 def blind_push(
