@@ -233,7 +233,7 @@ def pixel_grid(
         margin: number of further points of the finer grid at each end.
     """
     n = finer * (side - 1) + 1 + 2 * margin
-    return np.asarray(cell / finer * (np.arange(n) - (n - 1) / 2), dtype=np.float64)
+    return cell / finer * (np.arange(n, dtype=np.float64) - (n - 1) / 2)
 
 
 def spot_images(points: ArrayLike, xs: ArrayLike, ys: ArrayLike, sigma: float) -> Array:

@@ -100,7 +100,7 @@ def _seen(figure) -> None:
     axes.plot(*MM * points[:2], "+", color=RED, ms=11, mew=2)
     axes.plot(*MM * points[2:], "+", color=ORANGE, ms=11, mew=2)
     off = MM * np.linalg.norm((points - SEEN[0]).reshape(2, 2), axis=1)
-    axes.text(100, 440, f"off by\n{off[0]:.1f} and {off[1]:.1f} mm", ha="center")
+    axes.text(100, 60, f"off by\n{off[0]:.1f} and {off[1]:.1f} mm", ha="center")
 
 
 def _offsets(ends: Axes, home: Axes) -> None:
