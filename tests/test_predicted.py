@@ -119,9 +119,10 @@ def test_a_lab_that_stops_early_shows_no_number(capsys):
 
 
 @pytest.mark.parametrize("day", all_days(), ids=lambda day: str(day.number))
-def test_every_day_asks_for_three_numbers_first(day):
+def test_every_day_asks_for_three_numbers_or_more_first(day):
     asked = rows_asked(kits_worksheet(day))
-    assert list(asked.values()) == ["", "", ""]
+    assert len(asked) >= 3
+    assert set(asked.values()) == {""}
 
 
 # What a lab measures of the rows of its worksheet, as documents print it.
@@ -144,6 +145,7 @@ ANSWERS = {
     16: ("0.38", "0.90 nats", "0.27"),
     17: ("0.364", "0.612", "0.617"),
     18: ("5.36", "0.82"),
+    19: ("0.929", "0.215", "2.259"),
 }
 
 
