@@ -30,6 +30,7 @@ FASTEST = 0.2  # m/s, of each component of an action
 HOME = 0.02  # m: a puck that ends closer to the origin is at home
 # The demonstrator.
 PUSH = 0.1  # m/s, along the line from the puck to home
+DOCK_PUSH = 0.08  # m/s, the same for a start at the dock
 SLOW = 1.0  # 1/s: near home it pushes with this times the distance
 STEER = 3.0  # 1/s, the gain K of its steering
 ROUND = 0.15  # m/s, on its way around the puck
@@ -185,6 +186,42 @@ def demonstrations(n: int, seed: int, **how: Any) -> Episodes:
     """Return n demonstrations from random starts; `how` is of `demonstrator`."""
     start = starts(n, np.random.default_rng(seed))
     return run(*scene(), start, lambda seen: demonstrator(seen, **how))
+
+
+def dock_demonstrations(
+    n: int, seed: int, coin: bool = True, wait: int = 0
+) -> Episodes:
+    """Return n demonstrations from random starts at the dock.
+
+    Args:
+        n, seed: number of episodes, and of the generator.
+        coin: True if a coin decides for each episode whether the demonstrator goes
+            around the puck on the left or on the right; False: always on the left.
+        wait: steps for which it stands still first; an episode has as many more.
+    """
+    rng = np.random.default_rng(seed)
+    start = dock(n, rng)
+    side = rng.choice([-1.0, 1.0], n) if coin else np.ones(n)
+    steps = iter(range(STEPS + wait))
+
+    def act(seen: Array) -> Array:
+        action = demonstrator(seen, push=DOCK_PUSH, side=side)
+        return np.zeros_like(action) if next(steps) < wait else action
+
+    return run(*scene(), start, act, STEPS + wait)
+
+
+def on_the_left(episodes: Episodes) -> Array:
+    """Return in which episodes the pusher went around the puck on the left, (n,).
+
+    The side is seen in the direction from the puck's first position to home, at the
+    pusher's largest distance from this line.
+    """
+    puck = episodes.observation[:, 0, 2:]
+    left = _left(-puck)[:, None]
+    beside = np.sum((episodes.observation[..., :2] - puck[:, None]) * left, axis=2)
+    most = np.argmax(np.abs(beside), axis=1)
+    return np.take_along_axis(beside, most[:, None], axis=1)[:, 0] > 0
 
 
 def blind_push(

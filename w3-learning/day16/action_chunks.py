@@ -1,0 +1,162 @@
+"""16.1 `action_chunks(action, episode, K)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row
+from labkit.judge.kinds import Kind
+
+row = Row((
+    Kind((None, None, None), called="the chunks"),
+    Matrix((None, None), called="the mask"),
+))  # fmt: skip
+
+
+def several(rng, sizes, m, numbers=None):
+    """Return actions of episodes with so many rows, and their numbers."""
+    numbers = np.arange(len(sizes)) if numbers is None else np.array(numbers)
+    episode = np.repeat(numbers, sizes)
+    return rng.numbers(0.1, 1, len(episode), m), episode
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[1.0], [2], [3]]), np.zeros(3, int), 2
+    yield *several(rng, (4,), 2), 3
+    yield *several(rng, (3, 2), 1), 2
+    yield *several(rng, (2, 4, 3), 2), 3
+    yield *several(rng, (2, 1), 2), 5  # K exceeds every episode
+    yield *several(rng, (3, 3), 3), 1
+    yield *several(rng, (2, 1, 3), 2, (7, 2, 7)), 4  # a number that comes again
+    yield *several(rng, (3, 2, 4), 1, (5, 3, 4)), 3  # numbers that are not sorted
+    first, second = (int(n) for n in rng.integers(1, 5, 2))
+    yield *several(rng, (first, second), 2), int(rng.integers(2, 5))
+
+
+row.cases(
+    one_episode=lambda action, episode, K: bool((episode == episode[0]).all()),
+    several_episodes=lambda action, episode, K: bool((episode != episode[0]).any()),
+)
+row.cases(
+    chunks_of_one_entry=lambda action, episode, K: K == 1,
+    longer_chunks=lambda action, episode, K: K > 1,
+)
+
+
+def chunks(action, inside, ahead=0):
+    """Return chunks and mask, where `inside(i, j)` is whether row j belongs to row i.
+
+    Args:
+        action: of each row, (n, m).
+        inside: of two row numbers; its shape is the mask's.
+        ahead: rows between a row and the first entry of its chunk.
+    """
+    n = len(action)
+    mask = np.array(inside, dtype=float)
+    rows = np.arange(n)[:, None] + np.arange(mask.shape[1]) + ahead
+    mask = mask * (rows < n)
+    return action[np.minimum(rows, n - 1)] * mask[..., None], mask
+
+
+@row.wrongs(
+    hidden={"ends-the-data 2": "the lab's last episode is as long as the others"}
+)
+def _(action, episode, K):
+    """crosses-episodes: your chunks continue in the next episode. Set entries behind
+      the end of a row's episode to 0
+    starts-next: in your code, a chunk begins with the action of the next row. Entry 0
+      is the action of the row itself
+    wraps: in your code, a chunk continues with the first rows behind the last one.
+      Entries behind the end of the data are 0
+    by-number-only: in your code, all rows with the same number are one episode, but a
+      number may come again later. Only adjacent rows belong together
+    mask-all-ones: your mask is 1 everywhere. It is 0 where the chunk extends beyond
+      the end of the episode
+    held: in your code, the last action of an episode is repeated in the entries that
+      do not exist. These entries are 0
+    wraps-within: in your code, a chunk continues with the first rows of its own
+      episode. Entries behind its end are 0
+    past: your chunks contain the actions before the row. A chunk contains the actions
+      from this row on
+    mask-swapped: your mask is 1 for the entries that do not exist. It is 1 for the
+      entries that exist
+    mask-of-rows: in your code, a chunk that is not complete has the mask 0
+      everywhere. The mask belongs to the single entries
+    ends-the-data 2: your chunks continue in the next episode. Set entries behind the
+      end of a row's episode to 0
+    """
+    n = len(action)
+    rows = np.arange(n)[:, None] + np.arange(K)
+    known = np.minimum(rows, n - 1)
+    count = np.cumsum(np.append(True, episode[1:] != episode[:-1]))
+    same = (count[known] == count[:, None]) & (rows < n)
+    targets, mask = chunks(action, same)
+    later = np.minimum(rows + 1, n - 1)
+    ends = np.searchsorted(count, count, side="right")[:, None]
+    begins = np.searchsorted(count, count)[:, None]
+    before = rows[:, :1] - np.arange(K)
+    within = begins + (rows - begins) % (ends - begins)
+    return {
+        "crosses-episodes": chunks(action, rows < n),
+        "starts-next": chunks(action, count[later] == count[:, None], ahead=1),
+        "wraps": (action[rows % n], 1.0 + 0 * mask),
+        "by-number-only": chunks(action, episode[known] == episode[:, None]),
+        "mask-all-ones": (targets, 1.0 + 0 * mask),
+        "held": (action[np.minimum(rows, ends - 1)], mask),
+        "wraps-within": (action[within], 1.0 + 0 * mask),
+        "past": (
+            action[np.maximum(before, 0)] * (before >= begins)[..., None],
+            1.0 * (before >= begins),
+        ),
+        "mask-swapped": (targets, 1 - mask),
+        "mask-of-rows": (targets, mask * mask.all(axis=1, keepdims=True)),
+        "ends-the-data 2": (action[known] * (rows < n)[..., None], mask),
+    }
+
+
+@row.right  # A double loop, and a mask of truth values.
+def _(action, episode, K):
+    n, m = action.shape
+    targets = np.zeros((n, K, m))
+    mask = np.zeros((n, K), dtype=bool)
+    for i in range(n):
+        for j in range(K):
+            if i + j == n or episode[i + j] != episode[i]:
+                break
+            targets[i, j] = action[i + j]
+            mask[i, j] = True
+    return targets, mask
+
+
+@row.right  # Episode by episode, with padding.
+def _(action, episode, K):
+    targets, masks = [], []
+    ends = np.flatnonzero(np.diff(episode)) + 1
+    for some in np.split(action, ends):
+        padded = np.vstack([some, np.zeros((K, action.shape[1]))])
+        exists = np.append(np.ones(len(some)), np.zeros(K))
+        for i in range(len(some)):
+            targets.append(padded[i : i + K])
+            masks.append(exists[i : i + K])
+    return np.array(targets), np.array(masks)
+
+
+@row.right  # Entry by entry, shifted.
+def _(action, episode, K):
+    targets = np.zeros((len(action), K, action.shape[1]))
+    mask = np.zeros((len(action), K))
+    alive = np.ones(len(action), dtype=bool)
+    for j in range(min(K, len(action))):
+        if j > 0:
+            same = np.append(episode[j:] == episode[j - 1 : -1], np.zeros(j, bool))
+            alive = alive & same
+        rows = np.flatnonzero(alive)
+        targets[rows, j] = action[rows + j]
+        mask[rows, j] = 1
+    return targets, mask
+
+
+@row.spans
+def _(rng):
+    action, episode = several(rng, (14, 13), 2)
+    for size in (1e-3, 1e3):
+        yield size * action, episode + 98, 12

@@ -1,0 +1,138 @@
+"""16.3 `backprop(x, d, W1, ..., b3)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Slip
+
+from .nets import GRADIENTS, net, one, problems
+
+row = Row(
+    GRADIENTS,
+    slips=(
+        Slip(
+            "^ValueError.*matmul",
+            r"\b[dDgGe]\w* ?@ ?W[123]\b(?!\.(T|mT|transpose))",
+            "not-transposed",
+            "Your function stops because a weight matrix is not transposed. On the way "
+            "back, a gradient (n, outputs) is multiplied by W^T, (outputs, inputs).",
+        ),
+    ),
+)
+
+
+@row.inputs
+def _(rng):
+    yield np.zeros((1, 1)), np.ones((1, 1)), *one(1, 1, 1)
+    yield np.zeros((1, 1)), np.ones((1, 1)), *one(2, 3, 1)
+    yield from problems(rng)
+
+
+row.cases(
+    one_row=lambda x, *_: len(x) == 1,
+    several_rows=lambda x, *_: len(x) > 1,
+)
+row.cases(
+    a_square_first_layer=lambda x, d, W1, *_: W1.shape[0] == W1.shape[1],
+    layers_of_different_sizes=lambda x, d, W1, *_: W1.shape[0] != W1.shape[1],
+)
+
+
+@row.wrongs
+def _(x, d, W1, b1, W2, b2, W3, b3):
+    """dx-before-the-slope: your gradient of x uses the gradient behind the first tanh.
+      Multiply by 1 - h^2 of the first layer before W1^T
+    dx-with-input-slope: your gradient of x is multiplied by 1 - x^2. The input is not
+      an output of tanh, so there is no such factor
+    slope-of-h: in your code, the derivative of tanh is computed as 1 - tanh(h)^2 from
+      the layer's output h. The output is tanh already, so the derivative is 1 - h^2
+    mse-again: in your code, d is divided by the number of its entries and doubled, as
+      in the gradient of a mean squared error. d is the gradient already
+    dx-mean: your gradient of x is a mean over the rows. Each row of x has a gradient of
+      its own
+    slope-at-the-end: in your code, d is multiplied by a derivative of tanh. The last
+      layer is linear, so its derivative is 1
+    dx-of-the-hidden: your last result is the gradient of the first layer's output.
+      Take it back through W1 to the input
+    """
+    h1 = np.tanh(x @ W1 + b1)
+    h2 = np.tanh(h1 @ W2 + b2)
+
+    def back(d, slope=lambda h: 1 - h**2):
+        d2 = (d @ W3.T) * slope(h2)
+        d1 = (d2 @ W2.T) * slope(h1)
+        return (
+            x.T @ d1, d1.sum(axis=0),
+            h1.T @ d2, d2.sum(axis=0),
+            h2.T @ d, d.sum(axis=0),
+            d1 @ W1.T,
+        )  # fmt: skip
+
+    right = back(d)
+    d2 = (d @ W3.T) * (1 - h2**2)
+    out = h2 @ W3 + b3
+    return {
+        "dx-before-the-slope": (*right[:6], d2 @ W2.T @ W1.T),
+        "dx-with-input-slope": (*right[:6], right[6] * (1 - x**2)),
+        "slope-of-h": back(d, lambda h: 1 - np.tanh(h) ** 2),
+        "mse-again": back(2 * d / d.size),
+        "dx-mean": (*right[:6], right[6] / len(x)),
+        "slope-at-the-end": back(d * (1 - out**2)),
+        "dx-of-the-hidden": lambda: (*right[:6], d2 @ W2.T),
+    }
+
+
+@row.right  # By the complex step, entry by entry.
+def _(x, d, W1, b1, W2, b2, W3, b3):
+    def loss(W1, b1, W2, b2, W3, b3, x):
+        h = np.tanh(np.tanh(x @ W1 + b1) @ W2 + b2)
+        return np.sum(d * (h @ W3 + b3))
+
+    arrays = [W1, b1, W2, b2, W3, b3, x]
+    grads = []
+    for i, array in enumerate(arrays):
+        grad = np.zeros(array.shape)
+        for at in np.ndindex(array.shape):
+            some = [a.astype(complex) for a in arrays]
+            some[i][at] += 1e-30j
+            grad[at] = loss(*some).imag / 1e-30
+        grads.append(grad)
+    return tuple(grads)
+
+
+@row.right  # Row by row, with outer products, and the slope as 1 / cosh^2.
+def _(x, d, W1, b1, W2, b2, W3, b3):
+    grads = [np.zeros(a.shape) for a in (W1, b1, W2, b2, W3, b3, x)]
+    for i in range(len(x)):
+        z1 = x[i] @ W1 + b1
+        z2 = np.tanh(z1) @ W2 + b2
+        d3 = d[i]
+        d2 = W3 @ d3 / np.cosh(z2) ** 2
+        d1 = W2 @ d2 / np.cosh(z1) ** 2
+        for k, (h, e) in enumerate(((x[i], d1), (np.tanh(z1), d2), (np.tanh(z2), d3))):
+            grads[2 * k] += np.outer(h, e)
+            grads[2 * k + 1] += e
+        grads[6][i] = W1 @ d1
+    return tuple(grads)
+
+
+@row.right  # With a list of layers, from the last to the first.
+def _(x, d, W1, b1, W2, b2, W3, b3):
+    outputs = [x]
+    for W, b in ((W1, b1), (W2, b2)):
+        outputs.append(np.tanh(outputs[-1] @ W + b))
+    grads = []
+    for k, W in reversed(list(enumerate((W1, W2, W3)))):
+        h = outputs[k]
+        grads = [h.T @ d, np.ones(len(x)) @ d, *grads]
+        d = d @ W.T
+        if k > 0:
+            d = d * (1 - h * h)
+    return (*grads, d)
+
+
+@row.spans
+def _(rng):
+    x = rng.numbers(-1, 1, 3, 2)
+    for size, of_d in ((1e-3, 1e-5), (4.0, 10.0)):
+        arrays = (size * a for a in net(rng, 2, 3, 2, 2))
+        yield 4.0 * x, of_d * rng.numbers(-1, 1, 3, 2), *arrays

@@ -1,0 +1,55 @@
+"""16.8 `ensemble_noise(k, decay)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Scalar
+
+row = Row(Scalar())
+
+
+@row.inputs
+def _(rng):
+    yield 8, 0.01
+    yield from ((1, 0.5), (2, 0.0), (4, 0.0), (3, 0.3), (5, -0.4), (6, 1.2))
+    yield int(rng.integers(2, 9)), float(rng.numbers(-1, 1))
+
+
+row.cases(
+    one_plan=lambda k, decay: k == 1,
+    several_plans=lambda k, decay: k > 1,
+)
+row.cases(
+    equal_weights=lambda k, decay: decay == 0,
+    weights_that_differ=lambda k, decay: decay != 0,
+)
+
+
+@row.wrongs
+def _(k, decay):
+    """equal-weights: your result is 1 / sqrt(k), which holds for equal weights only
+    sum-not-squared: in your code, the weights are not squared, so your result is 1.
+      The variance of each error is multiplied by the square of its weight
+    """
+    return {
+        "equal-weights": 1 / np.sqrt(k),
+        "sum-not-squared": 1.0,
+    }
+
+
+@row.right  # The norm of the weights.
+def _(k, decay):
+    weights = np.exp(-decay * np.arange(k))
+    return np.linalg.norm(weights / np.sum(weights))
+
+
+@row.right  # Two sums in a loop.
+def _(k, decay):
+    total = squares = 0.0
+    for i in range(k):
+        weight = np.exp(-decay * i)
+        total += weight
+        squares += weight * weight
+    return squares**0.5 / total
+
+
+row.spans(k=(1, 100), decay=(0.0, -1.0, 3.0))

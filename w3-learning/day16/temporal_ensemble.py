@@ -1,0 +1,99 @@
+"""16.8 `temporal_ensemble(plans, decay)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+row = Row(Vector((None,)))
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[[0.0], [1], [2]], [[3], [4], [5]]]), float(np.log(2))
+    for k, K, m, decay in (
+        (1, 3, 2, 0.5),  # one plan
+        (2, 2, 1, 0.3),
+        (3, 4, 2, 0.7),
+        (3, 3, 1, 0.0),
+        (4, 5, 2, -0.4),
+        (2, 5, 3, 1.2),
+    ):
+        yield rng.numbers(-1, 1, k, K, m), decay
+    k = int(rng.integers(2, 5))
+    yield rng.numbers(-1, 1, k, k + 1, 2), float(rng.numbers(-1, 1))
+
+
+row.cases(
+    one_plan=lambda plans, decay: len(plans) == 1,
+    several_plans=lambda plans, decay: len(plans) > 1,
+)
+row.cases(
+    equal_weights=lambda plans, decay: decay == 0,
+    weights_that_differ=lambda plans, decay: decay != 0,
+)
+row.cases(
+    as_many_plans_as_entries=lambda plans, decay: len(plans) == plans.shape[1],
+    fewer_plans_than_entries=lambda plans, decay: len(plans) < plans.shape[1],
+)
+
+
+@row.wrongs
+def _(plans, decay):
+    """newest-first: your largest weight for a positive decay belongs to the newest
+      plan. The plans are given the oldest first, and the oldest has the weight exp(0)
+    first-entries: in your code, the first entry of each plan is averaged. The first
+      entry of an old plan was for an earlier step: take the entry for now
+    same-entry: in your code, entry i of plan i is used, as if plan 0 were the newest.
+      Plan i was made k - 1 - i steps ago
+    last-entries: in your code, the last entry of each plan is averaged. Plan i has its
+      action for now at the entry k - 1 - i
+    counted-from-the-end: in your code, entry K - 1 - i of plan i is used. The newest of
+      k plans has its first entry for now, so take entry k - 1 - i
+    """
+    k, K, _ = plans.shape
+    i = np.arange(k)
+    weight = np.exp(-decay * i)
+    now = plans[i, k - 1 - i]
+
+    def mean(weight, of):
+        return weight @ of / weight.sum()
+
+    return {
+        "newest-first": mean(weight[::-1], now),
+        "first-entries": mean(weight, plans[:, 0]),
+        "same-entry": mean(weight, plans[i, i]),
+        "last-entries": mean(weight, plans[:, -1]),
+        "counted-from-the-end": mean(weight, plans[i, K - 1 - i]),
+    }
+
+
+@row.right  # Plan by plan, from the newest to the oldest.
+def _(plans, decay):
+    total, weights = 0.0, 0.0
+    for age in range(len(plans)):
+        weight = np.exp(decay * age)
+        total = total + weight * plans[len(plans) - 1 - age, age]
+        weights += weight
+    return total / weights
+
+
+@row.right  # The weights as a running product, the entries as a diagonal.
+def _(plans, decay):
+    k = len(plans)
+    now = np.diagonal(plans[:, :k][:, ::-1], axis1=0, axis2=1)
+    weights = np.cumprod(np.append(1.0, np.full(k - 1, np.exp(-decay))))
+    return now @ (weights / weights.sum())
+
+
+@row.right  # NumPy's weighted mean.
+def _(plans, decay):
+    now = [plan[-1 - i] for i, plan in enumerate(plans[:, : len(plans)])]
+    return np.average(now, axis=0, weights=np.exp(-decay * np.arange(len(plans))))
+
+
+@row.spans
+def _(rng):
+    plans = rng.numbers(-1, 1, 8, 8, 3)
+    for size, decay in ((1e-3, 0.01), (1e3, -1.0), (1.0, 3.0)):
+        yield size * plans, decay
+    yield rng.numbers(-1, 1, 2, 12, 2), 0.3
