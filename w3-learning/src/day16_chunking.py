@@ -407,14 +407,14 @@ def pause(lab: Lab) -> None:
     print("  speed of each entry, as a fraction of full speed:")
     for name, net in nets.items():
         found = speeds(data, net, episodes)
-        for kind, row in (("paper", paper[name]), ("measured", found)):
+        for kind, row in (("predicted", paper[name]), ("measured", found)):
             print(
-                f"    {name:9}{kind:9}" + "".join(f"{s:6.2f}" for s in row[: WAIT + 1])
+                f"    {name:9}{kind:10}" + "".join(f"{s:6.2f}" for s in row[: WAIT + 1])
             )
         if name == "squared":
             off = np.round(found - share, 2)
+            lab.measured("squared error: speed of the third entry", found[2])
             lab.record("started", off, label="squared error: largest difference")
-        lab.measured(f"{name} error: speed of the third entry", found[2])
     for name, net in nets.items():
 
         def plan(seen, net=net):
@@ -525,7 +525,7 @@ def ensembles(lab: Lab, latent: Latent, rng: np.random.Generator) -> None:
     print(f"  noise left by the mean of {K} plans: "
           f"{ensemble_noise(K, DECAY):.3f} if all errors are alike")  # fmt: skip
     lab.measured("noise left by the mean of 8 plans", left)
-    lab.record("calm", np.round(left, 2), label="measured")
+    lab.record("calm", np.round(left, 2), label="measured with a noise of 2 mm")
     policy = chunking.chunked_policy(latent.with_z(), 1)
     report("no ensembling, 1 executed", episodes_of(policy).home())
     for decay in (DECAY, -1.0):
