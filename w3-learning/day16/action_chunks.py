@@ -58,7 +58,10 @@ def chunks(action, inside, ahead=0):
 
 
 @row.wrongs(
-    hidden={"ends-the-data 2": "the lab's last episode is as long as the others"}
+    hidden={
+        "ends-the-data 2": "the lab's last episode is as long as the others",
+        "wraps 2": "the lab's last row belongs to another episode than its first",
+    }
 )
 def _(action, episode, K):
     """crosses-episodes: your chunks continue in the next episode. Set entries behind
@@ -93,6 +96,8 @@ def _(action, episode, K):
       is the action of row i + j
     blocks: in your code, K rows share a chunk. The chunk of each row begins with the
       action of this row
+    neighbours-only: your code compares the episodes of the rows i + j - 1 and i + j.
+      The entries of a chunk belong to the episode of row i
     only-larger: in your code, an episode begins where the number is larger than before.
       It begins where the number differs
     """
@@ -109,6 +114,7 @@ def _(action, episode, K):
     shorter = (count[later] == count[:, None]) & (rows + 1 < n)
     around = count[rows % n] == count[:, None]
     block = begins + (rows[:, :1] - begins) // K * K + np.arange(K)
+    neighbour = episode[known] == episode[np.maximum(known - 1, 0)]
     larger = np.cumsum(np.append(True, episode[1:] > episode[:-1]))
     within = begins + (rows - begins) % (ends - begins)
     return {
@@ -134,6 +140,7 @@ def _(action, episode, K):
             action[np.minimum(block, n - 1)] * (block < ends)[..., None],
             1.0 * (block < ends),
         ),
+        "neighbours-only": chunks(action, neighbour | (rows == rows[:, :1])),
         "only-larger": chunks(action, larger[known] == larger[:, None]),
     }
 

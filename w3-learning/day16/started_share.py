@@ -40,6 +40,8 @@ def _(wait, K):
       row has started
     independent-starts: your result holds if the motion starts in each step with the
       probability 1 / (w + 1). The pause has a fixed number of steps: count its rows
+    all-started: your result is 1 everywhere. In the pause, the motion has started by
+      entry j only in the rows in which at most j steps remain
     still-waiting: your result is the fraction that still waits. Subtract it from 1
     stretched: your fractions rise evenly until the last entry. The longest wait ends at
       the entry `wait`, for any K
@@ -58,6 +60,7 @@ def _(wait, K):
         "moving-row-omitted 2": np.minimum(1, j / wait) if wait else j + np.nan,
         "one-entry-early": np.minimum(1, (j + 2) / (wait + 1)),
         "independent-starts": 1 - (wait / (wait + 1)) ** (j + 1),
+        "all-started": np.ones(K),
         "still-waiting": 1 - right,
         "stretched": np.linspace(1 / (wait + 1), 1, K),
         "stretched 2": (j + 1) / K,

@@ -61,6 +61,12 @@ def _(plans, decay):
       the sum of the weights
     equal-weights: in your code, all plans have the same weight. The weight of plan i is
       proportional to exp(-decay i)
+    newest-only: your function returns the first entry of the newest plan. The result is
+      the weighted mean of all plans
+    oldest-only: your function returns the action of the oldest plan. The result is the
+      weighted mean of all plans
+    median: your function returns the median of the plans. The result is their weighted
+      mean
     powers-of-the-decay: in your code, the weight of plan i is the decay to the power i.
       It is exp(-decay i)
     """
@@ -90,6 +96,9 @@ def _(plans, decay):
         "all-entries": mean(weight, plans.mean(axis=1)),
         "divided-by-k": weight @ now / k,
         "equal-weights": now.mean(axis=0),
+        "newest-only": now[-1],
+        "oldest-only": now[0],
+        "median": np.median(now, axis=0),
         "powers-of-the-decay": lambda: mean(decay**i, now),
     }
 
