@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 from mujoco import rollout
+from numpy.typing import NDArray
 
 from robo47.checks import Array
 
@@ -211,7 +212,7 @@ def dock_demonstrations(
     return run(*scene(), start, act, STEPS + wait)
 
 
-def on_the_left(episodes: Episodes) -> Array:
+def on_the_left(episodes: Episodes) -> NDArray[np.bool_]:
     """Return in which episodes the pusher went around the puck on the left, (n,).
 
     The side is seen in the direction from the puck's first position to home, at the
@@ -221,7 +222,8 @@ def on_the_left(episodes: Episodes) -> Array:
     left = _left(-puck)[:, None]
     beside = np.sum((episodes.observation[..., :2] - puck[:, None]) * left, axis=2)
     most = np.argmax(np.abs(beside), axis=1)
-    return np.take_along_axis(beside, most[:, None], axis=1)[:, 0] > 0
+    left_of_it: NDArray[np.bool_] = beside[np.arange(len(most)), most] > 0
+    return left_of_it
 
 
 def blind_push(
