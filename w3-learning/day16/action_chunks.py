@@ -6,7 +6,7 @@ from labkit.judge import Matrix, Row
 from labkit.judge.kinds import Kind
 
 row = Row((
-    Kind((None, None, None), called="the chunks"),
+    Kind((None, None, None), called="the array of chunks"),
     Matrix((None, None), called="the mask"),
 ))  # fmt: skip
 
@@ -58,7 +58,10 @@ def chunks(action, inside, ahead=0):
 
 
 @row.wrongs(
-    hidden={"ends-the-data 2": "the lab's last episode is as long as the others"}
+    hidden={
+        "ends-the-data 2": "the lab's last episode is as long as the others",
+        "wraps 2": "the lab's last row belongs to another episode than its first",
+    }
 )
 def _(action, episode, K):
     """crosses-episodes: your chunks continue in the next episode. Set entries behind
@@ -77,12 +80,26 @@ def _(action, episode, K):
       episode. Entries behind its end are 0
     past: your chunks contain the actions before the row. A chunk contains the actions
       from this row on
-    mask-swapped: your mask is 1 for the entries that do not exist. It is 1 for the
-      entries that exist
+    mask-swapped: your mask is 1 for the entries that do not exist. It should be 1 for
+      the entries that exist
     mask-of-rows: in your code, a chunk that is not complete has the mask 0
       everywhere. The mask belongs to the single entries
     ends-the-data 2: your chunks continue in the next episode. Set entries behind the
       end of a row's episode to 0
+    wraps 2: in your code, a chunk continues with the first rows behind the last one.
+      Entries behind the end of the data are 0
+    last-row-dropped: in your code, a chunk ends one row before the end of the episode.
+      The last row belongs to the episode, and its action is an entry
+    last-row-dropped 2: your mask is 0 for the action of an episode's last row. This
+      action exists, so its mask is 1
+    only-entry-0: your chunks contain only entry 0, and all later entries are 0. Entry j
+      is the action of row i + j
+    blocks: in your code, K rows share a chunk. The chunk of each row begins with the
+      action of this row
+    neighbours-only: your code compares the episodes of the rows i + j - 1 and i + j.
+      The entries of a chunk belong to the episode of row i
+    only-larger: in your code, an episode begins where the number is larger than before.
+      It begins where the number differs
     """
     n = len(action)
     rows = np.arange(n)[:, None] + np.arange(K)
@@ -94,6 +111,11 @@ def _(action, episode, K):
     ends = np.searchsorted(count, count, side="right")[:, None]
     begins = np.searchsorted(count, count)[:, None]
     before = rows[:, :1] - np.arange(K)
+    shorter = (count[later] == count[:, None]) & (rows + 1 < n)
+    around = count[rows % n] == count[:, None]
+    block = begins + (rows[:, :1] - begins) // K * K + np.arange(K)
+    neighbour = episode[known] == episode[np.maximum(known - 1, 0)]
+    larger = np.cumsum(np.append(True, episode[1:] > episode[:-1]))
     within = begins + (rows - begins) % (ends - begins)
     return {
         "crosses-episodes": chunks(action, rows < n),
@@ -110,6 +132,16 @@ def _(action, episode, K):
         "mask-swapped": (targets, 1 - mask),
         "mask-of-rows": (targets, mask * mask.all(axis=1, keepdims=True)),
         "ends-the-data 2": (action[known] * (rows < n)[..., None], mask),
+        "wraps 2": (action[rows % n] * around[..., None], around),
+        "last-row-dropped": chunks(action, shorter),
+        "last-row-dropped 2": (targets, 1.0 * shorter),
+        "only-entry-0": (targets * (np.arange(K) == 0)[:, None], mask),
+        "blocks": (
+            action[np.minimum(block, n - 1)] * (block < ends)[..., None],
+            1.0 * (block < ends),
+        ),
+        "neighbours-only": chunks(action, neighbour | (rows == rows[:, :1])),
+        "only-larger": chunks(action, larger[known] == larger[:, None]),
     }
 
 

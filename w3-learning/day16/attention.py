@@ -16,9 +16,9 @@ row = Row(
     held_out=[
         HeldOut(
             "overflows",
-            "Your function is right, but exp overflows for large products and the "
-            "result is NaN. Subtract the largest entry of each row before exp: the "
-            "weights do not change.",
+            "Your function is right for small products, but the result is NaN for "
+            "large ones. exp overflows, or it is 0 for a whole row. Subtract the "
+            "largest entry of each row before exp: the weights do not change.",
             long_queries,
         )
     ],
@@ -56,9 +56,28 @@ def _(q, k, v):
       to each row
     best-only: your function returns the value of the best key. Attention is a weighted
       mean of all values
+    no-exp: in your code, the products are divided by their sum. The softmax takes exp
+      of the products first
+    base-2: in your code, the weights are powers of 2. The softmax takes exp of the
+      products
+    sigmoid: your weights are sigmoids of the products, divided by their sum. The
+      softmax takes exp of the products
+    cosines: in your code, queries and keys are divided by their norms. Use the scalar
+      product itself, divided by sqrt(d)
+    cosines 2: in your code, queries and keys are divided by their norms. Use the scalar
+      product itself, divided by sqrt(d)
+    scaled-after: in your code, the mean of the values is divided by sqrt(d). Divide the
+      products by it, before the softmax
+    causal: in your code, query i uses the keys up to i only. In this task each query
+      uses all keys
     """
     d = q.shape[1]
     raw = q @ k.T
+
+    norms = np.linalg.norm(q, axis=1)[:, None] * np.linalg.norm(k, axis=1)
+    cosine = raw / norms
+    sigmoid = 1 / (1 + np.exp(-raw / np.sqrt(d)))
+    seen = np.arange(len(k)) <= np.arange(len(q))[:, None]
 
     def soft(logits, axis=1):
         w = np.exp(logits - logits.max())
@@ -69,6 +88,13 @@ def _(q, k, v):
         "one-softmax": soft(raw / np.sqrt(d), axis=None),
         "no-softmax": raw / np.sqrt(d) @ v,
         "best-only": v[np.argmax(raw, axis=1)],
+        "no-exp": raw / raw.sum(axis=1, keepdims=True) @ v,
+        "base-2": soft(raw / np.sqrt(d) * np.log(2)),
+        "sigmoid": sigmoid / sigmoid.sum(axis=1, keepdims=True) @ v,
+        "cosines": soft(cosine),
+        "cosines 2": soft(cosine / np.sqrt(d)),
+        "scaled-after": soft(raw) / np.sqrt(d),
+        "causal": soft(np.where(seen, raw / np.sqrt(d), -np.inf)),
     }
 
 

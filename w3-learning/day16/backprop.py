@@ -53,13 +53,30 @@ def _(x, d, W1, b1, W2, b2, W3, b3):
       layer is linear, so its derivative is 1
     dx-of-the-hidden: your last result is the gradient of the first layer's output.
       Take it back through W1 to the input
+    slope-at-the-end 2: in your code, d is multiplied by a derivative of tanh. The last
+      layer is linear, so its derivative is 1
+    slope-of-the-sum: in your code, the derivative of tanh is computed as 1 - a^2 from
+      its argument a. It is 1 - h^2, where h is the output of tanh
+    no-biases: your forward pass omits the biases. They shift the argument of tanh and
+      thereby change its derivative
+    slope-of-relu: in your code, a derivative is 1 for positive outputs and 0 for the
+      others, as for a ReLU. The layers are tanh, so the derivative is 1 - h^2
+    slope-of-relu 2: in your code, the derivative of the second layer is 1 for positive
+      outputs and 0 for the others, as for a ReLU. The derivative of tanh is 1 - h^2
+    mean-again: in your code, the gradients of weights and biases are divided by the
+      number of rows. d is the gradient of the whole loss, so sum over the rows
+    dx-accumulated: in your code, each row of the gradient of x contains the rows before
+      it. Each row depends on its own sample only
     """
     h1 = np.tanh(x @ W1 + b1)
     h2 = np.tanh(h1 @ W2 + b2)
 
-    def back(d, slope=lambda h: 1 - h**2):
-        d2 = (d @ W3.T) * slope(h2)
-        d1 = (d2 @ W2.T) * slope(h1)
+    def of_tanh(h):
+        return 1 - h**2
+
+    def back(d, slope=of_tanh, second=None, h1=h1, h2=h2, of=None):
+        d2 = (d @ W3.T) * (second or slope)(of[1] if of else h2)
+        d1 = (d2 @ W2.T) * slope(of[0] if of else h1)
         return (
             x.T @ d1, d1.sum(axis=0),
             h1.T @ d2, d2.sum(axis=0),
@@ -70,6 +87,9 @@ def _(x, d, W1, b1, W2, b2, W3, b3):
     right = back(d)
     d2 = (d @ W3.T) * (1 - h2**2)
     out = h2 @ W3 + b3
+    sum1 = x @ W1 + b1
+    sum2 = h1 @ W2 + b2
+    bare = np.tanh(x @ W1)
     return {
         "dx-before-the-slope": (*right[:6], d2 @ W2.T @ W1.T),
         "dx-with-input-slope": (*right[:6], right[6] * (1 - x**2)),
@@ -78,6 +98,13 @@ def _(x, d, W1, b1, W2, b2, W3, b3):
         "dx-mean": (*right[:6], right[6] / len(x)),
         "slope-at-the-end": back(d * (1 - out**2)),
         "dx-of-the-hidden": lambda: (*right[:6], d2 @ W2.T),
+        "slope-at-the-end 2": back(d * (1 - np.tanh(out) ** 2)),
+        "slope-of-the-sum": back(d, of=(sum1, sum2)),
+        "no-biases": back(d, h1=bare, h2=np.tanh(bare @ W2)),
+        "slope-of-relu": back(d, lambda h: h > 0),
+        "slope-of-relu 2": back(d, second=lambda h: h > 0),
+        "mean-again": (*(a / len(x) for a in right[:6]), right[6]),
+        "dx-accumulated": (*right[:6], np.cumsum(right[6], axis=0)),
     }
 
 

@@ -32,8 +32,8 @@ row.cases(
     several_rows=lambda dz, *_: len(dz) > 1,
 )
 row.cases(
-    without_the_divergence=lambda dz, mu, logvar, noise, beta: beta == 0,
-    with_the_divergence=lambda dz, mu, logvar, noise, beta: beta != 0,
+    calls_with_beta_0=lambda dz, mu, logvar, noise, beta: beta == 0,
+    calls_with_another_beta=lambda dz, mu, logvar, noise, beta: beta != 0,
 )
 
 
@@ -49,19 +49,45 @@ def _(dz, mu, logvar, noise, beta):
       already
     dz-not-passed-on: your gradient of logvar contains the divergence only. The sample
       depends on logvar as well
+    by-the-std: your last result is the gradient with respect to the standard deviation.
+      Multiply it by the derivative exp(logvar / 2) / 2 of the standard deviation
+    by-the-std 2: in your code, dz is multiplied by the derivative of the sample with
+      respect to the standard deviation. Multiply by exp(logvar / 2) / 2 as well
+    sample-for-noise: in your gradient of logvar, dz is multiplied by the sample. mu
+      does not depend on logvar, so only the noise belongs there
+    sample-for-noise 2: in your gradient of logvar, dz is multiplied by the sample. mu
+      does not depend on logvar, so only the noise belongs there
+    beta-forgotten: in your gradient of logvar, the divergence is not multiplied by
+      beta. The loss contains beta times the divergence
+    beta-forgotten 2: in your code, the divergence is not multiplied by beta. The loss
+      contains beta times the divergence
+    not-differentiated: your gradient contains the divergence itself. It should
+      contain its derivative
+    not-differentiated 2: your gradient of mu contains mu^2 / 2, a term of the
+      divergence itself. It should contain the derivative of this term
     """
     n = len(dz)
     each = beta / n
     std = np.exp(logvar / 2)
     first, var = dz * noise * std / 2, each * (std**2 - 1) / 2
     dmu = dz + each * mu
-    z = dz.shape[1]
+    columns = dz.shape[1]
+    z = mu + std * noise
+    kl = (std**2 + mu**2 - 1 - logvar) / 2
     return {
         "noise-forgotten": (dmu, dz * std / 2 + var),
         "kl-not-divided": (dz + beta * mu, first + n * var),
-        "kl-not-divided 2": (dz + each * mu / z, first + var / z),
+        "kl-not-divided 2": (dz + each * mu / columns, first + var / columns),
         "dz-divided": (dz / n + each * mu, first / n + var),
         "dz-not-passed-on": (dmu, var),
+        "by-the-std": (dmu, dz * noise + each * (std - 1 / std)),
+        "by-the-std 2": (dmu, dz * noise + var),
+        "sample-for-noise": (dmu, dz * z / 2 + var),
+        "sample-for-noise 2": (dmu, dz * z * std / 2 + var),
+        "beta-forgotten": (dmu, first + (std**2 - 1) / (2 * n)),
+        "beta-forgotten 2": (dz + mu / n, first + (std**2 - 1) / (2 * n)),
+        "not-differentiated": (dz + each * kl, first + each * kl),
+        "not-differentiated 2": (dz + each * mu**2 / 2, first + var),
     }
 
 

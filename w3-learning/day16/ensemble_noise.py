@@ -29,10 +29,18 @@ def _(k, decay):
     """equal-weights: your result is 1 / sqrt(k), which holds for equal weights only
     sum-not-squared: in your code, the weights are not squared, so your result is 1.
       The variance of each error is multiplied by the square of its weight
+    effective-number: your result is 1 / sum(w^2), the number of plans with equal
+      weights that leave the same noise. The standard deviation is the root of sum(w^2)
+    spread-of-the-weights: your result is the standard deviation of the weights. Each
+      weight multiplies an error with the standard deviation 1: add the variances
     """
+    weights = np.exp(-decay * np.arange(k))
+    weights = weights / weights.sum()
     return {
         "equal-weights": 1 / np.sqrt(k),
         "sum-not-squared": 1.0,
+        "effective-number": 1 / np.sum(weights**2),
+        "spread-of-the-weights": np.std(weights),
     }
 
 

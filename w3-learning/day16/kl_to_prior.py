@@ -32,12 +32,18 @@ def _(mu, logvar):
     """bits: your divergence is in bits. Use the natural logarithm, which gives nats
     swapped: your divergence is the one of the prior from the Gaussian, with both
       distributions swapped. Take the mean under the Gaussian with mu and logvar
+    log-of-std: in your code, logvar is the logarithm of the standard deviation. It is
+      the logarithm of the variance
+    entropy: your result is the entropy of the Gaussian. The divergence is the mean of
+      ln q - ln p, so it depends on the prior and on mu as well
     """
     var = np.exp(logvar)
     right = (var + mu**2 - 1 - logvar) / 2
     return {
         "bits": right / np.log(2),
         "swapped": ((1 + mu**2) / var - 1 + logvar) / 2,
+        "log-of-std": (var**2 + mu**2 - 1) / 2 - logvar,
+        "entropy": (np.log(2 * np.pi) + 1 + logvar) / 2 + 0 * mu,
     }
 
 

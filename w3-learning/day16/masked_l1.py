@@ -40,8 +40,8 @@ def _(rng):
 
 
 row.cases(
-    without_padding=lambda pred, target, mask: bool((mask != 0).all()),
-    with_padding=lambda pred, target, mask: bool((mask == 0).any()),
+    masks_without_padding=lambda pred, target, mask: bool((mask != 0).all()),
+    masks_with_padding=lambda pred, target, mask: bool((mask == 0).any()),
 )
 row.cases(
     one_column=lambda pred, target, mask: pred.shape[2] == 1,
@@ -66,6 +66,18 @@ def _(pred, target, mask):
       so divide the gradient by the same number
     divided-by-rows: in your code, the sum is divided by the number of rows. Divide by
       the number of existing entries, times m
+    gradient-by-all: your loss is right, but your gradient is divided by the number of
+      all entries, including padding. Divide it by the same number as the loss
+    not-0-at-0: your gradient is not 0 for an error of 0. There the derivative does not
+      exist, and the task uses 0, as `np.sign` does
+    not-0-at-0 2: your gradient is not 0 for an error of 0. There the derivative does
+      not exist, and the task uses 0, as `np.sign` does
+    norms: your loss contains the Euclidean norm of each entry. Take the absolute value
+      of each of its m numbers
+    norms 2: your loss contains the Euclidean norm of each entry. Take the absolute
+      value of each of its m numbers
+    root-mean-square: your loss is the root of the mean squared error. Take the mean of
+      the absolute values
     """
     w = mask[..., None] * 1.0
     m = pred.shape[2]
@@ -74,6 +86,10 @@ def _(pred, target, mask):
     size, sign = np.abs(e), np.sign(e)
     loss, grad = np.sum(w * size) / total, w * sign / total
     each = w / (m * mask.sum(axis=1)[:, None, None] * len(e))
+    norm = np.linalg.norm(e, axis=2, keepdims=True)
+    ahead = np.divide(e, norm, out=np.zeros_like(e), where=norm > 0)
+    norms = np.sum(w * norm), w * ahead
+    rms = np.sqrt(np.sum(w * e**2) / total)
     return {
         "divided-by-all": (np.sum(w * size) / e.size, w * sign / e.size),
         "mask-forgotten": (size.mean(), sign / e.size),
@@ -83,6 +99,12 @@ def _(pred, target, mask):
         "mean-of-means": (np.sum(each * size), each * sign),
         "gradient-not-divided": (loss, w * sign),
         "divided-by-rows": (np.sum(w * size) / len(e), w * sign / len(e)),
+        "gradient-by-all": (loss, w * sign / e.size),
+        "not-0-at-0": (loss, w * np.where(e >= 0, 1, -1) / total),
+        "not-0-at-0 2": (loss, w * np.where(e > 0, 1, -1) / total),
+        "norms": (norms[0] / total, norms[1] / total),
+        "root-mean-square": (rms, w * e / (total * rms)),
+        "norms 2": (m * norms[0] / total, m * norms[1] / total),
     }
 
 

@@ -28,11 +28,26 @@ def _(mu, logvar, noise):
       the standard deviation, its square root
     base-2: in your code, logvar is a logarithm to the base 2. It is the natural
       logarithm
+    logvar-as-std: in your code, the noise is multiplied by logvar itself. logvar is the
+      logarithm of the variance: multiply by the standard deviation
+    half-variance: in your code, the noise is multiplied by half of the variance. The
+      square root of exp(logvar) halves the exponent
+    root-of-the-log: in your code, the noise is multiplied by the square root of logvar.
+      The logarithm comes first: exp(logvar) is the variance
+    softplus: in your code, the variance is ln(1 + exp(logvar)). logvar is the logarithm
+      of the variance, so the variance is exp(logvar)
+    standardised: your code subtracts the mean and divides by the standard deviation.
+      That takes a sample back to the noise; the task asks for the sample
     """
     std = np.exp(logvar / 2)
     return {
         "exp-of-logvar": mu + std**2 * noise,
         "base-2": mu + 2 ** (logvar / 2) * noise,
+        "logvar-as-std": mu + logvar * noise,
+        "half-variance": mu + std**2 / 2 * noise,
+        "root-of-the-log": mu + np.sqrt(np.abs(logvar)) * noise,
+        "softplus": mu + np.sqrt(np.log1p(std**2)) * noise,
+        "standardised": (noise - mu) / std,
     }
 
 

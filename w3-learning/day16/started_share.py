@@ -15,8 +15,8 @@ def _(rng):
 
 
 row.cases(
-    no_pause=lambda wait, K: wait == 0,
-    a_pause=lambda wait, K: wait > 0,
+    calls_without_a_pause=lambda wait, K: wait == 0,
+    calls_with_a_pause=lambda wait, K: wait > 0,
 )
 
 
@@ -30,6 +30,23 @@ def _(wait, K):
       started
     one-jump: your result is 0 before the entry `wait` and 1 from there on, as in the
       chunk of the first row. Average over the rows of the pause
+    one-entry-late: your result is j / (w + 1). By entry 0 the chunk of the row that
+      moves has started already
+    moving-row-omitted: your mean is over the w rows of the pause. The first row in
+      which the demonstrator moves has the same observation, so w + 1 rows belong to it
+    moving-row-omitted 2: your mean is over the w rows of the pause. The first row in
+      which the demonstrator moves has the same observation, so w + 1 rows belong to it
+    one-entry-early: your result is (j + 2) / (w + 1). By entry 0 only the chunk of one
+      row has started
+    independent-starts: your result holds if the motion starts in each step with the
+      probability 1 / (w + 1). The pause has a fixed number of steps: count its rows
+    all-started: your result is 1 everywhere. In the pause, the motion has started by
+      entry j only in the rows in which at most j steps remain
+    still-waiting: your result is the fraction that still waits. Subtract it from 1
+    stretched: your fractions rise evenly until the last entry. The longest wait ends at
+      the entry `wait`, for any K
+    stretched 2: your fractions rise evenly until the last entry. The longest wait ends
+      at the entry `wait`, for any K
     """
     j = np.arange(K)
     right = np.minimum(1, (j + 1) / (wait + 1))
@@ -38,6 +55,15 @@ def _(wait, K):
         "wait-not-plus-1": np.minimum(1, (j + 1) / max(wait, 1)),
         "not-clamped": (j + 1) / (wait + 1),
         "one-jump": 1.0 * (j >= wait),
+        "one-entry-late": np.minimum(1, j / (wait + 1)),
+        "moving-row-omitted": np.minimum(1, j / max(wait, 1)),
+        "moving-row-omitted 2": np.minimum(1, j / wait) if wait else j + np.nan,
+        "one-entry-early": np.minimum(1, (j + 2) / (wait + 1)),
+        "independent-starts": 1 - (wait / (wait + 1)) ** (j + 1),
+        "all-started": np.ones(K),
+        "still-waiting": 1 - right,
+        "stretched": np.linspace(1 / (wait + 1), 1, K),
+        "stretched 2": (j + 1) / K,
     }
 
 

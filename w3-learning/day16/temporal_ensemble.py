@@ -13,14 +13,14 @@ def _(rng):
     for k, K, m, decay in (
         (1, 3, 2, 0.5),  # one plan
         (2, 2, 1, 0.3),
-        (3, 4, 2, 0.7),
+        (3, 5, 2, 0.7),
         (3, 3, 1, 0.0),
-        (4, 5, 2, -0.4),
+        (4, 6, 2, -0.4),
         (2, 5, 3, 1.2),
     ):
         yield rng.numbers(-1, 1, k, K, m), decay
     k = int(rng.integers(2, 5))
-    yield rng.numbers(-1, 1, k, k + 1, 2), float(rng.numbers(-1, 1))
+    yield rng.numbers(-1, 1, k, k + 3, 2), float(rng.numbers(-1, 1))
 
 
 row.cases(
@@ -49,6 +49,26 @@ def _(plans, decay):
       action for now at the entry k - 1 - i
     counted-from-the-end: in your code, entry K - 1 - i of plan i is used. The newest of
       k plans has its first entry for now, so take entry k - 1 - i
+    one-entry-late: in your code, entry k - i of plan i is used. The newest plan, i =
+      k - 1, has its first entry for now
+    moving-average: your code updates a mean with the same two factors in every step.
+      The weight of plan i is exp(-decay i), divided by the sum of all weights
+    moving-average 2: your code updates a mean with the same two factors in every step.
+      The weight of plan i is exp(-decay i), divided by the sum of all weights
+    all-entries: in your code, all entries of a plan are averaged. Only one entry of
+      each plan is for now
+    divided-by-k: in your code, the sum is divided by the number of plans. Divide it by
+      the sum of the weights
+    equal-weights: in your code, all plans have the same weight. The weight of plan i is
+      proportional to exp(-decay i)
+    newest-only: your function returns the first entry of the newest plan. The result is
+      the weighted mean of all plans
+    oldest-only: your function returns the action of the oldest plan. The result is the
+      weighted mean of all plans
+    median: your function returns the median of the plans. The result is their weighted
+      mean
+    powers-of-the-decay: in your code, the weight of plan i is the decay to the power i.
+      It is exp(-decay i)
     """
     k, K, _ = plans.shape
     i = np.arange(k)
@@ -58,12 +78,28 @@ def _(plans, decay):
     def mean(weight, of):
         return weight @ of / weight.sum()
 
+    def running(new):
+        mean = now[0]
+        for action in now[1:]:
+            mean = (1 - new) * mean + new * action
+        return mean
+
     return {
         "newest-first": mean(weight[::-1], now),
         "first-entries": mean(weight, plans[:, 0]),
         "same-entry": mean(weight, plans[i, i]),
         "last-entries": mean(weight, plans[:, -1]),
         "counted-from-the-end": mean(weight, plans[i, K - 1 - i]),
+        "one-entry-late": mean(weight, plans[i, np.minimum(k - i, K - 1)]),
+        "moving-average": running(np.exp(-decay)),
+        "moving-average 2": running(1 - np.exp(-decay)),
+        "all-entries": mean(weight, plans.mean(axis=1)),
+        "divided-by-k": weight @ now / k,
+        "equal-weights": now.mean(axis=0),
+        "newest-only": now[-1],
+        "oldest-only": now[0],
+        "median": np.median(now, axis=0),
+        "powers-of-the-decay": lambda: mean(decay**i, now),
     }
 
 
