@@ -127,9 +127,9 @@ def test_every_lab_script_of_the_kit_gives_a_starter():
 @pytest.mark.parametrize(
     ("body", "says"),
     [
-        (GAP + "    return 1\n", "line 3"),
-        ("    y = 1\n" + GAP + "    return y\n", "line 4"),
-        ("    pass\n", "does nothing"),
+        (GAP + "    return 1\n", "Line 3, "),
+        ("    y = 1\n" + GAP + "    return y\n", "Line 4, "),
+        ("    pass\n", "is `pass`"),
     ],
 )
 def test_what_keeps_a_function_from_doing_anything_is_said(body, says):
