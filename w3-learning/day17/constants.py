@@ -27,8 +27,8 @@ def mixture(sigma):
     "fraction in the right mode, linear schedule", "{:.2f}",
     levels=between(1.05, 1.15, "less signal is left at the noisy end"),
     last=between(1.05, 1.15, "less signal is left at the noisy end"),
-    sigma=same("the noisy modes have a standard deviation of 0.80 and 0.81"),
-    samples=same("the starts are quantiles"),
+    sigma=same("the noisy modes widen only from 0.80 to 0.81"),
+    samples=same("quantiles have no sampling error"),
 )  # fmt: skip
 def linear(levels=LAB.LEVELS, last=0.02, sigma=LAB.SIGMA, samples=LAB.SAMPLES // 2):
     """Return the fraction of the samples in the right mode."""
@@ -42,7 +42,7 @@ def linear(levels=LAB.LEVELS, last=0.02, sigma=LAB.SIGMA, samples=LAB.SAMPLES //
 
 @numbers.add(
     "width / sigma of one mode after DDIM steps", "{:.3f}",
-    steps=between(1.2, 1.3, "each angle is half as large"),
+    steps=between(1.2, 1.3, "each angle is about half as large"),
     sigma=between(1.05, 1.2, "the angles of the steps are more equal"),
     levels=between(0.9, 0.96, "level 0 has less noise, so the step to it is longer"),
 )  # fmt: skip

@@ -173,7 +173,7 @@ def test_the_widths_on_paper():
     assert lab.timesteps(100, 10)[-2:].tolist() == [11, 0]
     words = f"{np.degrees(turn[-1]):.0f} degrees and keeps only {np.cos(turn[-1]):.2f}"
     assert f"has an angle of {words}" in SENTENCES
-    assert f"keep {np.prod(np.cos(turn[:-1])):.2f} together" in SENTENCES
+    assert f"steps before it keep {np.prod(np.cos(turn[:-1])):.2f}." in SENTENCES
     noise = np.sqrt(1 - steps) / np.sqrt(steps)
     assert noise[-2] > lab.SIGMA > noise[-1]
 

@@ -64,8 +64,8 @@ def fit_scaler(x: np.ndarray) -> np.ndarray:
     """Return the means of the columns and their standard deviations, (2, d).
 
     x (n, d) are rows of data. Divide by n, not by n - 1. A column whose entries are all
-    equal has a standard deviation of 1. fit_scaler([[1, 4], [3, 4]]) -> [[2, 4], [1,
-    1]]
+    equal gets the standard deviation 1 instead of 0.
+    fit_scaler([[1, 4], [3, 4]]) -> [[2, 4], [1, 1]]
     """
     # region 15.3
     spread = x.std(axis=0)  # standard deviation of each column
@@ -88,7 +88,7 @@ def normalise(x: np.ndarray, scaler: np.ndarray) -> np.ndarray:
 
 
 def denormalise(z: np.ndarray, scaler: np.ndarray) -> np.ndarray:
-    """Return x (n, d) with the normalised form z (n, d): the inverse of `normalise`.
+    """Return the rows x (n, d) whose normalised form is z (n, d): undo `normalise`.
 
     scaler (2, d) is from `fit_scaler`. denormalise([[3, 0]], [[2, 4], [1, 1]]) -> [[5,
     4]]
@@ -212,7 +212,7 @@ def persistence_loss(action: np.ndarray, episode: np.ndarray) -> float:
 def nearest_distance(known: np.ndarray, asked: np.ndarray) -> np.ndarray:
     """Return the distance (m,) from each row of asked to the nearest row of known.
 
-    The rows are known (n, d) and asked (m, d); distances are Euclidean.
+    known is (n, d) and asked (m, d); the distances are Euclidean.
     nearest_distance([[0, 0], [3, 4]], [[0, 1]]) -> [1]
     """
     # region 15.9

@@ -45,7 +45,7 @@ SLOW = 0.045  # m/s sideways: slower than each demonstration at its start
 
 
 def cosine_schedule(T: int) -> np.ndarray:
-    """Return the cosine schedule, abar of T levels from little noise to much, (T,).
+    """Return abar of the T levels of the cosine schedule, by increasing noise, (T,).
 
     Let f(t) = cos((t / T + 0.008) / 1.008 pi / 2)^2. Level t = 0, 1, ..., T - 1 removes
     the fraction beta = 1 - f(t + 1) / f(t) of the power that is left, but at most
@@ -61,7 +61,7 @@ def cosine_schedule(T: int) -> np.ndarray:
 
 
 def add_noise(x0: np.ndarray, noise: np.ndarray, abar: np.ndarray) -> np.ndarray:
-    """Return noisy data, (n, d), whose power is abar of the data and the rest of noise.
+    """Return noisy data, (n, d), with the fraction abar of the power from the data.
 
     x0 (n, d) are the data, noise (n, d) standard Gaussian numbers and abar (n,) the
     fraction of the data's power in each row, 0 to 1. The factors of data and noise are
@@ -77,11 +77,11 @@ def add_noise(x0: np.ndarray, noise: np.ndarray, abar: np.ndarray) -> np.ndarray
 def exact_noise(
     x: np.ndarray, abar: float, means: np.ndarray, sigma: float, weights: np.ndarray
 ) -> np.ndarray:
-    """Return the mean of the noise in each row of noisy data, given this row, (n, d).
+    """Return the conditional mean of the noise, given each row of noisy data, (n, d).
 
     The data are a mixture of Gaussians with means (k, d), weights (k,) and the standard
     deviation sigma of each mode in each direction. x (n, d) is sqrt(abar) data +
-    sqrt(1 - abar) noise. The result must be finite also for rows far from all modes.
+    sqrt(1 - abar) noise. The result must also be finite for rows far from all modes.
     exact_noise([[0.5]], 0.36, [[-1], [1]], 0.1, [0.5, 0.5]) -> [[0.297030]]
     """
     # region 17.3
@@ -100,8 +100,8 @@ def ddim_step(x: np.ndarray, eps: np.ndarray, abar: float, prev: float) -> np.nd
     """Return samples (n, d) after a deterministic step from the level abar to prev.
 
     x (n, d) are samples at the level abar, and eps (n, d) the noise in them: x =
-    sqrt(abar) clean + sqrt(1 - abar) eps. The clean samples receive the same noise
-    again, at the level prev, from abar to 1; 1 is no noise.
+    sqrt(abar) clean + sqrt(1 - abar) eps. Add the same noise to the clean samples
+    at the level prev, which lies between abar and 1 (no noise).
     ddim_step([[1]], [[0.5]], 0.36, 0.64) -> [[1.1]]
     """
     # region 17.4
@@ -118,7 +118,7 @@ def ddpm_step(
     x and eps (n, d) are as in `ddim_step`, with abar below 1, and noise (n, d) are
     standard Gaussian numbers. The result is a sample at the level prev, drawn from its
     distribution given x and the clean sample. This is a Gaussian distribution whose
-    mean is a weighted sum of both. With the noise [[1]] the case below is 1.464828.
+    mean is a weighted sum of both. With the noise [[1]] the result below is 1.464828.
     ddpm_step([[1]], [[0.5]], 0.36, 0.64, [[0]]) -> [[0.96875]]
     """
     # region 17.5
@@ -148,7 +148,7 @@ def width_kept(abars: np.ndarray, sigma: float) -> float:
     """Return the fraction of a Gaussian's standard deviation that DDIM steps keep.
 
     The data have the standard deviation sigma. abars (k,) are the levels of the steps,
-    from the noisiest on; the last step leads to abar = 1. At each level the vector
+    by decreasing noise; the last step leads to abar = 1. At each level the vector
     (sigma sqrt(abar), sqrt(1 - abar)) has a direction in the plane. A step keeps the
     cosine of the angle between two successive directions; all steps keep the product.
     width_kept([0.36], 0.1) -> 0.07479
@@ -204,7 +204,8 @@ def ema(slow: np.ndarray, fast: np.ndarray, k: int) -> np.ndarray:
 
     slow (n,) is the average so far, fast (n,) are the new parameters, and k = 0, 1, ...
     counts the averages so far. The old average has the weight (1 + k) / (10 + k), but
-    at most 0.995, and the new parameters have the rest. ema([1], [2], 0) -> [1.9]
+    at most 0.995, and the new parameters have the remaining weight.
+    ema([1], [2], 0) -> [1.9]
     """
     # region 17.10
     decay = min(0.995, (1 + k) / (10 + k))  # weight of the old average
