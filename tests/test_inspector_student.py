@@ -166,6 +166,16 @@ def test_a_tab_may_ask_any_function(desk):
             "f: Your function stops with an error. The error occurs in line 3: "
             "`ValueError: no`.",
         ),
+        (
+            Reply(kind="ValueError", error="no `x`\n  here"),
+            "f: Your function stops with an error. The error is `ValueError: no 'x' "
+            "here`.",
+        ),
+        (
+            Reply(kind="KeyError", line=3, callers=(9,)),
+            "f: Your function stops with an error. The error occurs in line 3, called "
+            "from line 9: `KeyError`.",
+        ),
     ],
 )
 def test_what_is_no_answer_is_told_in_the_words_of_make_check(reply, says):

@@ -91,10 +91,11 @@ def stops_with(reply: Reply, often: str = "") -> str:
         reply: whose kind is the exception's name.
         often: in how many calls, "in 2 of 6 calls"; "" for one call.
     """
-    callers = ", from ".join(f"line {line}" for line in reply.callers)
+    callers = ", which is called from ".join(f"line {line}" for line in reply.callers)
     called = f", called from {callers}" if callers else ""
     where = f"The error occurs in line {reply.line}{called}:" if reply.line else ""
-    text = f"{reply.kind}: {reply.error}".rstrip().removesuffix(":").replace("`", "'")
+    text = " ".join(f"{reply.kind}: {reply.error}".replace("`", "'").split())
+    text = text.removesuffix(":")
     why = f" {ONLY_IN_MAIN}" if reply.kind == "ModuleNotFoundError" else ""
     if reply.kind == "EOFError":
         why = (

@@ -20,8 +20,7 @@ def one_gain(inputs, many="kp and kd have 7 entries each", one=TWO_NUMBERS):
         how = "stops" if any(call.reply.kind for call in failing) else "is wrong"
         return (
             f"Your function is correct if {many}. It {how} if {one}. Which "
-            "multiplication operator accepts arrays and single "
-            "numbers?"
+            "multiplication operator accepts arrays and single numbers?"
         )
 
     return HeldOut("one-number-as-gain", says(), inputs, told=says)
