@@ -195,7 +195,7 @@ class TestAPath:
             (
                 lambda s, n: np.arange(0, n + 2)[:, None] * s,
                 "shape",
-                "Your path has a wrong number of waypoints in 6 of 6 calls.",
+                "Your path has a wrong number of waypoints in all 6 calls.",
             ),
             (
                 lambda s, n: np.arange(1, n + 1) * s[0],

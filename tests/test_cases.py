@@ -8,6 +8,7 @@ from labkit.base.exchange import Reply
 from labkit.judge import Scalar
 from labkit.judge.ask import asked_of
 from labkit.judge.cases import in_cases
+from labkit.judge.merged import merged
 from labkit.judge.row import rows_of
 from labkit.lesson.day import find_day
 from robo47 import distance, planning
@@ -98,6 +99,41 @@ def test_only_is_said_where_every_other_call_is_right():
     row.cases(bands)
     wrong = told(row, lambda x: 99.0 if 3 <= x < 6 else x / 2 if x < 0 else x)
     assert wrong == "The result is wrong only for numbers from 3 to 6."
+
+
+def test_adjacent_ranges_with_the_same_verdict_are_one():
+    row = toy()
+    row.more["cases"] = ()
+    row.cases({
+        "numbers below -3 m": lambda x: x < -3,
+        "numbers from -3 to 0 m": lambda x: -3 <= x < 0,
+        "numbers from 0 m to 3 m": lambda x: 0 <= x < 3,
+        "numbers above 3 m": lambda x: x >= 3,
+    })  # fmt: skip
+    says = told(row, lambda x: x / 2 if x < 0 else 99.0)
+    assert says == (
+        "The result is right for numbers below 0 m. It is wrong for numbers above 0 m."
+    )
+
+
+@pytest.mark.parametrize(
+    ("phrases", "one"),
+    [
+        (
+            ["x below 0.02 rad", "x from 0.02 to 2 rad", "x from 2 to 3.12 rad"],
+            ["x below 3.12 rad"],
+        ),
+        (["x from 2 to 3.12 rad", "x from 3.12 rad to pi"], ["x from 2 rad to pi"]),
+        (["x from 1 to 2 rad", "x from 2 to 3 rad"], ["x from 1 to 3 rad"]),
+        (["x from 1 to 2 m", "x above 2 m"], ["x above 1 m"]),
+        (["x below 1", "x above 1"], ["x below 1", "x above 1"]),
+        (["x below 1 m", "x from 2 to 3 m"], ["x below 1 m", "x from 2 to 3 m"]),
+        (["x below 1", "y from 1 to 2"], ["x below 1", "y from 1 to 2"]),
+        (["parallel segments", "x below 1"], ["parallel segments", "x below 1"]),
+    ],
+)
+def test_only_ranges_that_meet_are_merged(phrases, one):
+    assert merged(phrases) == one
 
 
 def test_the_list_that_leaves_the_fewest_calls_open_is_told():

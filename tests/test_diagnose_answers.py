@@ -60,8 +60,12 @@ def test_an_exception_is_told_with_its_line_and_how_often_it_happens():
     replies[3] = Reply(error="float division", kind="ZeroDivisionError", line=31)
     verdict = judged_replies(MAKE_T, replies)
     assert (verdict.status, verdict.mistake) == ("wrong", "raises")
-    says = f"ZeroDivisionError: float division (line 31), in 1 of {len(T)} calls."
-    assert says in verdict.message
+    assert verdict.message == (
+        f"Your function stops with an error in 1 of {len(T)} calls. The error occurs "
+        "in line 31: `ZeroDivisionError: float division`."
+    )
+    verdict = judged_replies(MAKE_T, [replies[3]] * len(T))
+    assert f"with an error in all {len(T)} calls. The error" in verdict.message
 
 
 def test_an_answer_that_changes_when_asked_again_is_told_so():

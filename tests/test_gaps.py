@@ -44,7 +44,7 @@ def test_an_entry_is_printed_if_the_machine_names_it_when_all_these_are_deleted(
 
     (one,) = told_by_machine(day, row)
     assert (one.slug, one.source, one.shown) == ("twice", "argument", True)
-    assert "`theta` is doubled" in one.machine
+    assert "`theta` were twice as large" in one.machine
 
 
 def test_an_entrys_text_is_that_of_a_students_function():

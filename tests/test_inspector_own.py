@@ -137,7 +137,7 @@ def test_what_is_no_answer_is_said_and_nothing_else_is_passed_off_as_it(answer, 
         (Reply(kind="stopped", error="it runs on"), "YOUR double did not return: it"),
         (
             Reply(kind="ValueError", error="no", line=3),
-            "double: Your function stops with",
+            "double: Your function stops with an error. The error occurs in line 3",
         ),
     ],
 )

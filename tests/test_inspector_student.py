@@ -136,7 +136,7 @@ def test_an_endless_loop_is_asked_once_and_again_only_after_a_save(desk):
 def test_a_chain_that_takes_no_path_shows_its_end_alone(desk):
     seen = desk.save("no path")
     assert set(seen.poses) == {"ee"}
-    assert "Only ee is drawn: my_fk: Your function stops with T" in seen.sentence
+    assert "Only ee is drawn: my_fk: Your function stops with an error" in seen.sentence
 
 
 def test_a_question_that_fails_on_our_side_is_said_and_the_next_is_asked(desk):
@@ -163,7 +163,18 @@ def test_a_tab_may_ask_any_function(desk):
         ),
         (
             Reply(kind="ValueError", error="no", line=3),
-            "f: Your function stops with ValueError: no (line 3).",
+            "f: Your function stops with an error. The error occurs in line 3: "
+            "`ValueError: no`.",
+        ),
+        (
+            Reply(kind="ValueError", error="no `x`\n  here"),
+            "f: Your function stops with an error. The error is `ValueError: no 'x' "
+            "here`.",
+        ),
+        (
+            Reply(kind="KeyError", line=3, callers=(9,)),
+            "f: Your function stops with an error. The error occurs in line 3, called "
+            "from line 9: `KeyError`.",
         ),
     ],
 )

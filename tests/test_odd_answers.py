@@ -42,7 +42,8 @@ class TestAMistakeThatStopsOrReshapes:
 
         verdict = told(self.row(), function)
         assert verdict.mistake == "transposed"
-        assert "in 2 of 5 calls. The other answers are wrong, too." in verdict.message
+        assert "stops with an error in 2 of 5 calls." in verdict.message
+        assert "multiplied`. The other answers are wrong, too." in verdict.message
         assert "W is (k, m)" in verdict.message
 
     def test_is_named_where_it_is_right_at_all_others(self):
@@ -51,7 +52,8 @@ class TestAMistakeThatStopsOrReshapes:
 
         verdict = told(self.row(), function)
         assert verdict.mistake == "by-division"
-        assert "Your function stops with ZeroDivisionError" in verdict.message
+        assert "stops with an error in 1 of 5 calls." in verdict.message
+        assert "`ZeroDivisionError: " in verdict.message
         assert "with this mistake stops in the same call." in verdict.message
         other = told(self.row(), lambda X, W: X @ W if len(W) == 3 else 1 / 0)
         assert other.mistake == "raises"

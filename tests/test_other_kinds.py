@@ -92,7 +92,7 @@ class TestSizes:
         assert verdict(lambda x: -np.cumsum(x)).mistake == "all-signs"
         short = verdict(lambda x: np.cumsum(x)[:-1])
         assert short.mistake == "shape"
-        assert "returns an array of the wrong shape in 4 of 4 calls." in short.message
+        assert "returns an array of the wrong shape in all 4 calls." in short.message
         assert verdict(lambda x: np.cumsum(x)[None]).mistake == "shape"
 
     def test_a_mistake_is_made_again_in_every_size(self):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from test_claims import right, told
 
-from labkit.judge import Count, Mask, Pose, Scalar, Vector, pairs
+from labkit.judge import Count, Mask, Pose, Scalar, Vector, changes, pairs
 from labkit.judge.answers import as_clause, say_number
 from labkit.judge.matcher import Matcher
 from labkit.judge.mistake import Mistake
@@ -171,9 +171,22 @@ def test_two_arguments_exchanged_need_no_name():
         return right(8, "arm_regressor")(J_space, T_links, qdd, qd, g)
 
     says = told(8, "8.3", arm_regressor=arm_regressor)
-    assert (
-        "computes the result for other arguments: `qd` and `qdd` are swapped." in says
-    )
+    assert "Your code acts as if `qd` and `qdd` were swapped." in says
+
+
+def test_a_changed_argument_is_told_as_what_the_code_acts_as_if_it_were():
+    call = (np.arange(1.0, 5.0), np.arange(1.0, 5.0), np.eye(4), 2.0, 3)
+    names = ["masses", "lengths", "T", "g", "n"]
+    made = [*changes.likely(call, names), *changes.others(call, names)]
+    says = {one.says for one in made}
+    assert "every entry of `masses` were the mean of `masses`" in says
+    assert "every row of `T` were the mean of all rows" in says
+    assert "`masses` and `lengths` were swapped" in says
+    assert "`masses`, `lengths` and `T` were each in reverse order" in says
+    assert "`g` were rounded to 1 decimal" in says
+    assert "`n` were larger by 1" in says
+    assert all(re.search(r" (were|had) ", one) for one in says)
+    assert not any("{" in one for one in says)
 
 
 def test_two_entries_of_an_argument_exchanged_need_no_name():
@@ -181,7 +194,7 @@ def test_two_entries_of_an_argument_exchanged_need_no_name():
         return right(1, "quat_to_R")(quat[[0, 1, 3, 2]])
 
     says = told(1, "1.4", quat_to_R=quat_to_R)
-    assert "`quat[2]` and `quat[3]` are swapped" in says
+    assert "Your code acts as if `quat[2]` and `quat[3]` were swapped. " in says
 
 
 def test_of_two_mistakes_only_what_the_function_does_is_told():
@@ -249,7 +262,7 @@ def test_an_argument_before_a_default_is_told_by_its_name():
         return right(1, "compose_fk")(model, np.cumsum(q))
 
     says = told(1, "1.6", compose_fk=compose_fk)
-    assert "`q` is replaced by its cumulative sum" in says
+    assert "as if `q` were replaced by its cumulative sum. " in says
 
 
 def test_two_mistakes_at_once_are_made_in_the_reference_solution():
@@ -310,7 +323,7 @@ def test_a_large_number_has_no_exponent():
 def test_the_largest_error_counts_calls_and_names_two_units():
     yes, no = np.ones((6, 1)), np.zeros((6, 1))
     assert Mask().largest_error(yes[:, 0], no[:, 0]) == (
-        "The result is wrong in 6 of 6 calls."
+        "The result is wrong in all 6 calls."
     )
     T = np.tile(np.eye(4), (3, 1, 1))
     S = T.copy()

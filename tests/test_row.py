@@ -152,6 +152,8 @@ def test_a_shape_of_drawn_numbers_may_be_one_tuple():
         ),
         ("in `outer`, ", "in `inner`, x is lost", "in `inner`, x is lost"),
         ("in the adjoint, ", "a sign is lost", "in the adjoint, a sign is lost"),
+        ("in `f`, ", "your function is correct if x", "your `f` is correct if x"),
+        ("in the adjoint, ", "your function is", "in the adjoint, your function is"),
         ("in each link's matrix ", "c is not used", "in each link's matrix c is not"),
     ],
 )

@@ -95,8 +95,8 @@ def test_an_error_on_some_inputs_hides_no_wrong_answer(check):
     )
     assert code != REFERENCE
     message = check(code, task="1.3")["1.3"].message
-    assert message.startswith("Your function stops with ValueError")
-    assert "in 1 of 6 calls. The other answers are wrong, too." in message
+    assert message.startswith("Your function stops with an error in 1 of 6 calls.")
+    assert ": `ValueError: [-1. -0. -0.]`. The other answers are wrong, too." in message
     assert "wrong sign" in message
 
 
@@ -129,7 +129,8 @@ class TestTheLabWithAFilesFunctions:
         script = tmp_path / DAY.script
         script.write_text(code, "utf-8")
         says, *_ = rehearse(DAY, script, sandbox)
-        assert says.startswith("compose_fk stops with ZeroDivisionError")
+        assert says.startswith("compose_fk stops with an error. The error occurs in")
+        assert says.endswith(": `ZeroDivisionError: division by zero`")
 
     def test_hands_over_the_robot_that_it_has_and_not_the_panda(
         self, sandbox, tmp_path, monkeypatch

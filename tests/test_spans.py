@@ -5,8 +5,11 @@ import pytest
 from toyrows import row_of, told
 
 from labkit.judge import Scalar
+from labkit.judge.row import row_of as row_of_day
+from labkit.lesson.day import find_day
 
 LIMIT = 2.0
+CALLS = 0.2, 0.4, 0.7, 1.0, 3.0
 
 
 def row():
@@ -21,6 +24,7 @@ def row():
     def _(rng):
         yield from ((x,) for x in (1e-7, 1e7, LIMIT))
 
+    made.__dict__["arguments"] = ["x"]
     return made
 
 
@@ -29,20 +33,51 @@ def right(x):
 
 
 @pytest.mark.parametrize(
-    ("wrong", "call"),
+    ("wrong", "call", "which"),
     [
         (
             lambda x: right(x) if abs(x) > 1e-6 else 0.0,
             "f(1e-07) returned 0; expected 2e-07.",
+            "very small values of `x`. The lab or a later task uses such values.",
         ),
-        (lambda x: min(right(x), 1e6), "f(10000000.0) returned 1e+06; expected 1e+07."),
-        (lambda x: 2.0 * x if x <= LIMIT else x, "f(2) returned 4; expected 2."),
+        (
+            lambda x: min(right(x), 1e6),
+            "f(10000000.0) returned 1e+06; expected 1e+07.",
+            "very large values of `x`. The lab or a later task uses such values.",
+        ),
+        (
+            lambda x: 2.0 * x if x <= LIMIT else x,
+            "f(2) returned 4; expected 2.",
+            "inputs that are very small, very large or exactly at a limit. The lab",
+        ),
+        (
+            lambda x: right(x) if 1e-6 < abs(x) < 1e6 else 0.0,
+            "f(",
+            "inputs that are very small, very large or exactly at a limit. The lab",
+        ),
     ],
 )
-def test_a_guard_a_cap_and_a_limit_are_found_and_shown(wrong, call):
+def test_a_guard_a_cap_and_a_limit_are_found_and_shown(wrong, call, which):
     found = told(row(), wrong)
     assert found.mistake == "not-at-every-size"
     assert found.call.startswith(call)
+    assert f"but it is wrong for {which}" in found.message
+
+
+@pytest.mark.parametrize(
+    ("wrong", "how"),
+    [
+        (lambda e, ed, kp, kd: kp * e + kd * ed + (np.ndim(kp) or 1 // 0) - 1, "stops"),
+        (lambda e, ed, kp, kd: kp * e + kd * ed + (np.ndim(kp) == 0), "is wrong"),
+    ],
+)
+def test_of_single_numbers_it_is_said_whether_a_function_stops(wrong, how):
+    found = told(row_of_day(find_day(5), "pd_torque"), wrong)
+    assert found.mistake == "one-number-as-gain"
+    assert found.message.startswith(
+        f"Your function is correct if kp and kd have 7 entries each. It {how} if kp "
+        "and kd are single numbers, such as the lab's KP and KD. Which"
+    )
 
 
 def test_the_right_function_passes_in_another_order_of_sums():
@@ -58,3 +93,13 @@ def test_a_value_of_an_argument_is_put_into_the_last_usual_call():
     made.spans(x=(1e-9,), y=(lambda y: 1e6 * y,))
     (held,) = made.ask.held_out
     assert held.inputs(np.random.default_rng(1)) == [(1e-9, 8.0), (5.0, 8e6)]
+
+
+@pytest.mark.parametrize(
+    ("least", "how"),
+    [(0.9, "in 2 of 5 calls, by up to 9"), (1.5, "in 1 of 5 calls, by 9")],
+)
+def test_of_one_wrong_call_the_size_is_its_own(least, how):
+    made = row_of(Scalar(unit="m"), lambda x: x, lambda rng: [(x,) for x in CALLS])
+    off = told(made, lambda x: x + x * x if x > least else x)
+    assert off.message.startswith(f"The result is wrong {how} m.")

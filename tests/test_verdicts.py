@@ -106,7 +106,10 @@ def test_an_error_inside_a_helper_names_the_lines_that_called_it(check):
     (inner,) = (i for i, ln in enumerate(lines, 1) if "w, x, y, z = quat" in ln)
     (middle,) = (i for i, ln in enumerate(lines, 1) if "make_T(quat_to_R" in ln)
     outer = next(i for i, ln in enumerate(lines, 1) if "link_T(body.quat" in ln)
-    says = f"(line {inner}, called from line {middle}, from line {outer})"
+    says = (
+        f"The error occurs in line {inner}, called from line {middle}, which is called "
+        f"from line {outer}: `"
+    )
     assert says in check(code, "1.6")["1.6"].message
 
 

@@ -170,7 +170,7 @@ def rehearse(
     except FirstFailure as failure:
         fault = str(failure)
     except Exception as error:  # a wrong number can cause any error in the kit's code
-        fault = f"it stops with {type(error).__name__}: {error}"
+        fault = f"it stops with an error, `{type(error).__name__}: {error}`"
     if unfinished and whole.over:
         fault, unfinished = TOO_LONG, ""
     return LabRun(fault, run.numbers, unfinished)

@@ -361,6 +361,13 @@ def listed(words: Sequence[str]) -> str:
     return f"{', '.join(before)} and {last}" if before else last
 
 
+def in_calls(n: int, of: int) -> str:
+    """Return in how many calls something happens: "in 2 of 6 calls"."""
+    if n < of:
+        return f"in {n} of {of} calls"
+    return f"in all {of} calls" if of > 1 else "in the only call"
+
+
 def as_clause(sentence: str) -> str:
     """Return a sentence as it goes on after a comma.
 

@@ -92,6 +92,9 @@ class HeldOut:
     # Whether a function with few digits is judged by them, too: not where the row's
     # `near_miss` says more.
     of_close: bool = True
+    # What to say in the place of `says` of the calls that are not right, with those
+    # that are always asked beside them; None says the same of all.
+    told: Callable[[Sequence[Exchange], Sequence[Exchange]], str] | None = None
 
     def __post_init__(self) -> None:
         """Refuse another status: one that passes would hide what is found next."""

@@ -20,6 +20,7 @@ from labkit.judge.answers import listed
 from labkit.judge.ask import Ask, Asked, as_plain, right_answers
 from labkit.judge.crossed import crossed
 from labkit.judge.draw import Draw
+from labkit.judge.merged import merged
 from labkit.judge.mistake import Finding
 from labkit.judge.replies_read import read
 
@@ -193,7 +194,7 @@ def sentence(cases: Cases, old: Answered, new: Answered) -> tuple[int, str] | No
         ("It is wrong for", wrong),
         ("It is wrong in some calls with", mixed),
     )
-    parts = [f"{how} {_listed(some[:LISTED])}." for how, some in lists if some]
+    parts = [f"{how} {_listed(merged(some)[:LISTED])}." for how, some in lists if some]
     return left, " ".join(parts)
 
 

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from labkit.base.text import count
 from labkit.judge.answers import listed, own, rigid
 from labkit.judge.matrices import rigid_inverse
 from robo47.checks import Array
@@ -31,7 +32,8 @@ class Change(NamedTuple):
     """A change of a call's arguments."""
 
     slug: str  # "exchanged"
-    says: str  # a clause, "`qd` and `qdd` are swapped"
+    # A clause that follows "Your code acts as if ": "`qd` and `qdd` were swapped".
+    says: str
     change: Callable[..., Call]  # a function of all of them
 
 
@@ -47,7 +49,7 @@ def likely(call: Call, names: Sequence[str]) -> Iterator[Change]:
         yield from _made(k, names[k], _near(x))
     for k, m in combinations(range(len(call)), 2):
         if _number(call[k]) and _number(call[m]) and _shape(call[k]) == _shape(call[m]):
-            says = f"`{names[k]}` and `{names[m]}` are swapped"
+            says = f"`{names[k]}` and `{names[m]}` were swapped"
             yield Change("exchanged", says, partial(_exchanged, k, m))
     if sum(map(np.size, call)) <= FEW:
         for k, x in enumerate(call):
@@ -57,7 +59,7 @@ def likely(call: Call, names: Sequence[str]) -> Iterator[Change]:
         alike = [
             f"`{name}`" for name, x in zip(names, call, strict=True) if _long(x, n)
         ]
-        says = f"{listed(alike)} are read in reverse order"
+        says = f"{listed(alike)} were each in reverse order"
         yield Change("backwards", says, partial(_backwards, n))
 
 
@@ -133,64 +135,70 @@ def _made(k: int, name: str, some: Made) -> Iterator[Change]:
 def _near(x: Any) -> Made:
     if not _number(x):
         return
-    yield "sign", "`{0}` is negated", np.negative
-    yield "left-out", "`{0}` is replaced by 0", np.zeros_like
-    yield "doubled", "`{0}` is doubled", partial(np.multiply, 2.0)
-    yield "halved", "`{0}` is halved", partial(np.multiply, 0.5)
+    yield "sign", "`{0}` had the opposite sign", np.negative
+    yield "left-out", "`{0}` were 0", np.zeros_like
+    yield "doubled", "`{0}` were twice as large", partial(np.multiply, 2.0)
+    yield "halved", "`{0}` were half as large", partial(np.multiply, 0.5)
     shape = _shape(x)
     if len(shape) > 1 and shape[-1] == shape[-2]:
-        yield "transposed", "`{0}` is transposed", np.matrix_transpose
+        yield "transposed", "`{0}` were transposed", np.matrix_transpose
         if shape[-1] == 4 and rigid(x.reshape(-1, 4, 4)):
-            yield "inverted", "`{0}` is inverted", rigid_inverse
+            yield "inverted", "`{0}` were replaced by its inverse", rigid_inverse
     if shape == (6,):
-        yield "halves-exchanged", "the halves of `{0}` are swapped", _rolled
+        yield "halves-exchanged", "the halves of `{0}` were swapped", _rolled
     if shape and shape[0] >= SHARED:
-        yield "backwards", "`{0}` is read in reverse order", partial(np.flip, axis=0)
+        yield "backwards", "`{0}` were in reverse order", partial(np.flip, axis=0)
 
 
 def _entries_exchanged(x: Any) -> Made:
     if not (_number(x) and len(_shape(x)) == 1):
         return
     for i, j in combinations(range(len(x)), 2):
-        says = f"`{{0}}[{i}]` and `{{0}}[{j}]` are swapped"
+        says = f"`{{0}}[{i}]` and `{{0}}[{j}]` were swapped"
         yield "entries-exchanged", says, partial(_swapped, i, j)
 
 
 def _far(x: Any) -> Made:
     """Yield changes of an argument that are made more seldom."""
     if isinstance(x, int | np.integer) and not isinstance(x, bool):
-        yield "one-more", "`{0}` is larger by 1", lambda n: n + 1
-        yield "one-less", "`{0}` is smaller by 1", lambda n: n - 1
+        yield "one-more", "`{0}` were larger by 1", lambda n: n + 1
+        yield "one-less", "`{0}` were smaller by 1", lambda n: n - 1
     if not _number(x):
         return
-    yield "ones", "`{0}` is replaced by 1", np.ones_like
-    yield "sign-lost", "`{0}` is replaced by its absolute value", np.abs
-    yield "degrees", "`{0}` is converted to degrees", np.rad2deg
-    yield "radians", "`{0}` is converted from degrees to radians", np.deg2rad
-    yield "squared", "`{0}` is squared", np.square
-    yield "root", "`{0}` is replaced by its square root", np.sqrt
-    yield "reciprocal", "`{0}` is replaced by its reciprocal", lambda x: 1.0 / x
-    yield "thousandths", "`{0}` is multiplied by 1000", partial(np.multiply, 1000.0)
-    yield "thousands", "`{0}` is divided by 1000", partial(np.multiply, 1e-3)
-    yield "clamped", "`{0}` is clamped to -1 and 1", partial(np.clip, a_min=-1, a_max=1)
-    yield "clamped", "`{0}` is clamped to 0 and 1", partial(np.clip, a_min=0, a_max=1)
+    each = "every entry of `{0}`" if _shape(x) else "`{0}`"
+    yield "ones", f"{each} were 1", np.ones_like
+    yield "sign-lost", f"{each} were replaced by its absolute value", np.abs
+    yield "degrees", "`{0}` had been converted to degrees", np.rad2deg
+    yield "radians", "`{0}` had been converted from degrees to radians", np.deg2rad
+    yield "squared", f"{each} were replaced by its square", np.square
+    yield "root", f"{each} were replaced by its square root", np.sqrt
+    yield "reciprocal", f"{each} were replaced by its reciprocal", lambda x: 1.0 / x
+    yield "thousandths", "`{0}` were 1000 times as large", partial(np.multiply, 1000.0)
+    yield "thousands", "`{0}` were divided by 1000", partial(np.multiply, 1e-3)
     yield (
         "clamped",
-        "negative values of `{0}` are set to 0",
-        lambda x: np.maximum(x, 0.0),
+        f"{each} were clamped to [-1, 1]",
+        partial(np.clip, a_min=-1, a_max=1),
     )
-    yield "whole", "`{0}` is truncated to whole numbers", np.trunc
-    for decimals in range(4):
-        says = f"`{{0}}` is rounded to {decimals} decimals"
+    yield (
+        "clamped",
+        f"{each} were clamped to [0, 1]",
+        partial(np.clip, a_min=0, a_max=1),
+    )
+    yield "clamped", "negative values of `{0}` were 0", lambda x: np.maximum(x, 0.0)
+    yield "whole", f"{each} were truncated to a whole number", np.trunc
+    yield "rounded", f"{each} were rounded to a whole number", np.round
+    for decimals in range(1, 4):
+        says = f"{each} were rounded to {count(decimals, 'decimal')}"
         yield "rounded", says, partial(np.round, decimals=decimals)
     for small in (1e-9, 1e-6, 1e-4, 1e-3, 1e-2, 0.1):
-        says = f"values of `{{0}}` below {small:g} are set to 0"
+        says = f"values of `{{0}}` between {-small:g} and {small:g} were 0"
         yield "small", says, partial(_without_small, small)
     if not _shape(x):
         for value in CONSTANTS:
             yield (
                 "constant",
-                f"`{{0}}` is replaced by {value:g}",
+                f"`{{0}}` were {value:g}",
                 partial(_constant, value),
             )
     else:
@@ -199,16 +207,17 @@ def _far(x: Any) -> Made:
 
 def _far_of_array(x: Array) -> Made:
     shape = _shape(x)
-    yield "normalised", "`{0}` is normalised", _unit
+    yield "normalised", "`{0}` were divided by its norm", _unit
     entry, entries = ("row", "rows") if len(shape) == 2 else ("entry", "entries")
-    every = f"every {entry} of `{{0}}` is replaced by the"
-    yield "first-for-all", f"{every} first", _first
-    yield "last-for-all", f"{every} last", _last
-    yield "mean", f"{every} mean of all {entries}", _mean
-    yield "sorted", "`{0}` is sorted", partial(np.sort, axis=0)
+    whole = "all rows" if len(shape) == 2 else "`{0}`"
+    every = f"every {entry} of `{{0}}` were the"
+    yield "first-for-all", f"{every} first {entry}", _first
+    yield "last-for-all", f"{every} last {entry}", _last
+    yield "mean", f"{every} mean of {whole}", _mean
+    yield "sorted", "`{0}` were sorted", partial(np.sort, axis=0)
     yield (
         "summed-up",
-        "`{0}` is replaced by its cumulative sum",
+        "`{0}` were replaced by its cumulative sum",
         partial(np.cumsum, axis=0),
     )
     if shape[0] > 1:
@@ -216,39 +225,39 @@ def _far_of_array(x: Array) -> Made:
             missing = partial(_only, end)
             yield (
                 "entry-missing",
-                f"the {where} {entry} of `{{0}}` is replaced by 0",
+                f"the {where} {entry} of `{{0}}` were 0",
                 missing,
             )
-            says = f"the {where} {entry} of `{{0}}` is omitted"
+            says = f"the {where} {entry} of `{{0}}` were missing"
             yield "entry-missing", says, partial(_cut, end)
         for some, where in ((slice(1), "first"), (slice(-1, None), "last")):
-            says = f"all {entries} of `{{0}}` except the {where} are replaced by 0"
+            says = f"all {entries} of `{{0}}` except the {where} were 0"
             yield f"{where}-only", says, partial(_only, some)
         for by in (1, -1):
-            says = f"the {entries} of `{{0}}` are shifted by one"
+            says = f"the {entries} of `{{0}}` were shifted by one position"
             yield "shifted", says, partial(np.roll, shift=by, axis=0)
             yield "shifted", says, partial(_shifted, by)
     if shape == (3,):
-        yield "downwards", "`{0}` is replaced by (0, 0, -|{0}|)", _downwards
+        yield "downwards", "`{0}` were (0, 0, -|{0}|)", _downwards
         yield (
             "constant",
-            "`{0}` is replaced by (0, 0, -9.81)",
+            "`{0}` were (0, 0, -9.81)",
             partial(_constant, (0, 0, -9.81)),
         )
     if len(shape) > 1 and shape[-1] == shape[-2]:
         yield (
             "diagonal",
-            "only the diagonal of `{0}` is used",
+            "every off-diagonal entry of `{0}` were 0",
             lambda x: x * np.eye(len(x)),
         )
-        yield "identity", "`{0}` is replaced by the identity", lambda x: np.eye(len(x))
-        yield "inverted", "`{0}` is inverted", np.linalg.inv
-        yield "upper", "only the upper triangle of `{0}` is used", np.triu
-        yield "lower", "only the lower triangle of `{0}` is used", np.tril
+        yield "identity", "`{0}` were the identity matrix", lambda x: np.eye(len(x))
+        yield "inverted", "`{0}` were replaced by its inverse", np.linalg.inv
+        yield "upper", "every entry of `{0}` below the diagonal were 0", np.triu
+        yield "lower", "every entry of `{0}` above the diagonal were 0", np.tril
     if len(shape) > 1:
         yield (
             "columns",
-            "the columns of `{0}` are in reverse order",
+            "the columns of `{0}` were in reverse order",
             partial(np.flip, axis=1),
         )
 

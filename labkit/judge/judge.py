@@ -24,6 +24,7 @@ from labkit.judge.answers import (
     as_one,
     capitalised,
     difference,
+    in_calls,
     listed,
     of_result,
     plain,
@@ -108,7 +109,8 @@ def _without_a_name(asked: Asked) -> Verdict | None:
 
 def _by_how_much(gap: Array, tolerance: float) -> Finding:
     """Return how many answers are right, and how far the others are off at worst."""
-    right = f"The result is wrong in {np.sum(gap > tolerance)} of {len(gap)} calls."
+    wrong = int(np.sum(gap > tolerance))
+    right = f"The result is wrong {in_calls(wrong, len(gap))}."
     if not np.isfinite(worst := gap.max()):
         return Finding("off", right)
     return Finding("off", f"{right} The largest error is {worst:.2g}.")
@@ -174,7 +176,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     if off > ask.tolerance:
         found = _near_miss(asked, case, S, T, off)
         if held := _far_off(asked):
-            says = f"{held.says} {found.message}"
+            says = f"{held.message} {found.message}"
             return Verdict("wrong", held.slug, says, measured)
         return Verdict("close", *found, measured)
     return _judge_right(asked, S, measured)
@@ -258,12 +260,12 @@ def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
             return Verdict("wrong", *for_fresh(asked, main, S), measured)
     for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
         if _found(held, ask, exchanges):
-            return Verdict(held.status, held.slug, held.says, measured)
+            return Verdict(held.status, *_of_held_out(held, asked, exchanges), measured)
     return Verdict("passed", measured=measured)
 
 
-def _far_off(asked: Asked) -> HeldOut | None:
-    """Return the held-out questions to which answers with few digits are wrong, too.
+def _far_off(asked: Asked) -> Finding | None:
+    """Return what held-out questions show, if answers with few digits are wrong there.
 
     Those that ask for more digits than the main questions are not asked.
     """
@@ -272,8 +274,16 @@ def _far_off(asked: Asked) -> HeldOut | None:
         stricter = held.relative or (held.near or ask.near) < ask.near
         loose = held.of_close and not (stricter or held.mistaken)
         if held.status == "wrong" and loose and _found(held, ask, exchanges):
-            return held
+            return _of_held_out(held, asked, exchanges)
     return None
+
+
+def _of_held_out(held: HeldOut, asked: Asked, exchanges: Sequence[Exchange]) -> Finding:
+    """Return what is said of held-out questions that gave a mistake away."""
+    if held.told is None:
+        return Finding(held.slug, held.says)
+    failing = [one for one in exchanges if _found(held, asked.ask, [one])]
+    return Finding(held.slug, held.told(failing, asked.main))
 
 
 def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
@@ -509,9 +519,10 @@ def what_is_wrong(case: Case, S: Parts, T: Parts, counted: bool = True) -> Findi
 
 def _in_some_calls(found: Finding, wrong: int, calls: int) -> Finding:
     """Return a finding with the number of calls that are wrong."""
-    often = f"The result is wrong in {wrong} of {calls} calls"
-    if off := re.fullmatch(r"The result is off by (up to .+)\.", found.message):
-        return Finding(found.slug, f"{often}, by {off[1]}.")
+    often = f"The result is wrong {in_calls(wrong, calls)}"
+    if off := re.fullmatch(r"The result is off by up to (.+)\.", found.message):
+        most = off[1] if wrong == 1 else f"up to {off[1]}"
+        return Finding(found.slug, f"{often}, by {most}.")
     return Finding(found.slug, f"{found.message} {often}.")
 
 
@@ -521,8 +532,8 @@ def _wrong_too(case: Case, S: Parts, T: Parts, i: int) -> str:
     for j, kind in enumerate(case.ask.kinds):
         n = int(np.sum(case.ask.gaps_of(j, S[j], T[j]) > case.ask.near))
         if j != i and n and kind.called:
-            many = f"{n} of {len(S[j])} calls"
-            says += f" {capitalised(kind.called)} is wrong in {many}, too."
+            many = in_calls(n, len(S[j]))
+            says += f" {capitalised(kind.called)} is wrong {many}, too."
     return says
 
 

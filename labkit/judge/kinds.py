@@ -18,6 +18,7 @@ from labkit.judge.answers import (
     as_real,
     capitalised,
     gap,
+    in_calls,
     listed,
     matches,
     say_factor,
@@ -193,7 +194,7 @@ class Kind:
         """
         if self.whole and self.gap == Kind.gap:
             wrong = (S != T).reshape(len(T), -1).any(axis=1)
-            return f"The result is wrong in {np.sum(wrong)} of {len(T)} calls."
+            return f"The result is wrong {in_calls(int(np.sum(wrong)), len(T))}."
         apart = self.apart(S, T)
         if self.gap != Kind.gap:
             return f"The result is {self.gap} {apart}."

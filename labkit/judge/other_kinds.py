@@ -8,7 +8,14 @@ import numpy as np
 
 from labkit.base.text import count
 from labkit.judge.answer_mistakes import general
-from labkit.judge.answers import capitalised, difference, gap, millimetres, say_mm
+from labkit.judge.answers import (
+    capitalised,
+    difference,
+    gap,
+    in_calls,
+    millimetres,
+    say_mm,
+)
 from labkit.judge.kinds import NEAR, RIGHT, Kind, Scalar, one_factor
 from labkit.judge.matrix_kinds import Matrix
 from labkit.judge.mistake import Finding, Mistake
@@ -194,7 +201,7 @@ class Word(Kind):
         return self.words[place] if 0 <= place < len(self.words) else "?"
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
-        return f"{np.sum(S != T)} of {len(S)} calls"
+        return in_calls(int(np.sum(S != T)), len(S)).removeprefix("in ")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         i = int(np.argmax(S != T))
@@ -223,8 +230,10 @@ class Mask(Kind):
         return found if found.ndim else found.item()
 
     def apart(self, S: Array, T: Array) -> str:  # noqa: D102
-        what = "entries" if self.shape else "calls"
-        return f"{np.sum(S != T)} of {np.size(T)} {what}"
+        wrong = int(np.sum(S != T))
+        if self.shape:
+            return f"{wrong} of {np.size(T)} entries"
+        return in_calls(wrong, np.size(T)).removeprefix("in ")
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if (odd := S[(S != 0) & (S != 1)]).size:

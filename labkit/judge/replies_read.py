@@ -15,6 +15,7 @@ from labkit.judge.answers import (
     Parts,
     as_one,
     as_real,
+    in_calls,
     own,
     parts,
 )
@@ -88,19 +89,21 @@ def stops_with(reply: Reply, often: str = "") -> str:
 
     Args:
         reply: whose kind is the exception's name.
-        often: in how many calls, as words; "" for one call.
+        often: in how many calls, "in 2 of 6 calls"; "" for one call.
     """
-    callers = ", from ".join(f"line {line}" for line in reply.callers)
+    callers = ", which is called from ".join(f"line {line}" for line in reply.callers)
     called = f", called from {callers}" if callers else ""
-    where = f" (line {reply.line}{called})" if reply.line else ""
-    text = f"{reply.kind}: {reply.error}".rstrip().removesuffix(":")
+    where = f"The error occurs in line {reply.line}{called}:" if reply.line else ""
+    text = " ".join(f"{reply.kind}: {reply.error}".replace("`", "'").split())
+    text = text.removesuffix(":")
     why = f" {ONLY_IN_MAIN}" if reply.kind == "ModuleNotFoundError" else ""
     if reply.kind == "EOFError":
         why = (
             " Does your function call input()? The checker provides no input, so use "
             "the arguments."
         )
-    return f"Your function stops with {text}{where}{often}.{why}"
+    stops = f"Your function stops with an error {often}".rstrip()
+    return f"{stops}. {where or 'The error is'} `{text}`.{why}"
 
 
 def refusal(what: str, line: int | None) -> Verdict:
@@ -167,7 +170,7 @@ def read(exchanges: Sequence[Exchange], ask: Ask, source: str = "") -> Parts | F
         for slip in ask.slips:
             if re.search(slip.error, text) and re.search(slip.source, source):
                 return Finding(slip.slug, slip.says)
-        often = f", in {len(broken)} of {len(replied)} calls"
+        often = in_calls(len(broken), len(replied))
         return Finding("raises", stops_with(broken[0], often))
     nothing = sum(reply.value is None for reply in replied)
     if nothing and not getattr(ask.kind, "none", ""):
@@ -203,7 +206,7 @@ def of_another_size(asked: Asked) -> Finding | None:
     _, kind, got, right = off[0]
     calls = len({i for i, *_ in off})
     says = kind.another_size(got, right)
-    return Finding("shape", f"{says} in {calls} of {len(asked.main)} calls.")
+    return Finding("shape", f"{says} {in_calls(calls, len(asked.main))}.")
 
 
 def of_another_length(asked: Asked) -> bool:

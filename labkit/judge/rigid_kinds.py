@@ -11,6 +11,7 @@ from labkit.judge.answers import (
     RIGID,
     degrees,
     difference,
+    in_calls,
     matches,
     millimetres,
     rigid,
@@ -131,7 +132,7 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
     if mirrored := np.sum(np.linalg.det(S) < 0.0):
         return Finding(
             "left-handed",
-            f"R is a reflection (det R = -1) in {mirrored} of {len(S)} calls.",
+            f"R is a reflection (det R = -1) {in_calls(int(mirrored), len(S))}.",
         )
     off_by = degrees(S, T)
     often = " in every call" if np.ptp(off_by) < 1e-3 else ""

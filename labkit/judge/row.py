@@ -33,6 +33,7 @@ from labkit.judge.draw import Draw
 from labkit.judge.mistake import Mistake, told
 from labkit.judge.mutant import Body, body_of, glosses
 from labkit.judge.results import checked, numbers
+from labkit.judge.unusual import beyond
 from labkit.judge.written import Answered, stop, stops_with
 from labkit.lesson.day import Day
 from labkit.lesson.lab_module import definition, lab_of, read_script
@@ -70,8 +71,11 @@ def inside(where: str, says: str) -> str:
     Args:
         where: the place, such as "in the adjoint, ".
         says: a clause, which may begin with a smaller place, "in [p], ...". The name of
-            a function is a place by itself.
+            a function is a place by itself, and it replaces "your function".
     """
+    named = re.fullmatch(r"in (`\w+`), ", where)
+    if named and says.startswith("your function "):
+        return says.replace("your function", f"your {named[1]}", 1)
     inner = re.match(r"in ([^,]+), ", says)
     if not inner or not re.fullmatch(r"in [^,]+, ", where):
         return where + says
@@ -409,12 +413,10 @@ class Row:
     def _of_any_size(self) -> HeldOut:
         return HeldOut(
             ANY_SIZE,
-            "Your function is correct for ordinary inputs, but it is wrong for "
-            "inputs that are very small, very large or exactly at a limit. The lab "
-            "or a later task uses such inputs. Does a guard, a clamp or a tolerance "
-            "in your code affect the result for these inputs?",
+            beyond(),
             lambda rng: [call for draw in self._spans for call in _calls(draw, rng)],
             relative=True,
+            told=lambda failing, usual: beyond(failing, usual, self.arguments),
         )
 
     def _mistakes(self) -> list[Mistake]:

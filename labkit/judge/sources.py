@@ -185,8 +185,8 @@ def of_arguments(m: Matcher, digits: bool = True) -> Finding | None:
         if m.main.difference.fits(m.i, answer, digits) and m.holds(code, digits):
             if one.slug in changes.OF_UNITS and (unit := _in_another_unit(m)):
                 return unit
-            says = f"Your code computes the result for other arguments: {one.says}."
-            redone = "the reference solution with these arguments"
+            says = f"Your code acts as if {one.says}."
+            redone = "the reference solution with this change"
             how = m.with_error(f"{redone} {evidence(m.exact(code))}")
             return Finding(f"argument-{one.slug}", f"{says} {how}")
     return None

@@ -18,10 +18,10 @@ def in_order(model, q, path=PATH):
       transform. Apply the link's transform first, because its offset leads to the joint
     chain-reversed: your product is in the reverse order. Multiply each new transform on
       the right
-    links-on-the-left: your code multiplies the link transforms on the left and the
-      joint transforms on the right. Multiply both on the right
-    joints-on-the-left: your code multiplies the joint transforms on the left and the
-      link transforms on the right. Multiply both on the right
+    links-on-the-left: your code multiplies by the link transforms on the left and by
+      the joint transforms on the right. Multiply by both on the right
+    joints-on-the-left: your code multiplies by the joint transforms on the left and by
+      the link transforms on the right. Multiply by both on the right
     multiplied-by-entries: your code multiplies the transforms entry by entry. Use the
       matrix product instead
     """

@@ -9,17 +9,21 @@ JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 TORQUE = Vector((7,), "N m", scale=10.0, names=JOINTS)
 ANGLE = Vector((7,), "rad", names=JOINTS)
 ONE = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+TWO_NUMBERS = "kp and kd are single numbers, such as the lab's KP and KD"
 BEYOND = 3.7 * np.array([1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0])  # half a turn
 
 
-def one_gain(inputs, gains="each of kp and kd", lab="KP and KD"):
+def one_gain(inputs, many="kp and kd have 7 entries each", one=TWO_NUMBERS):
     """Return the question whether a right function also takes one number as a gain."""
-    says = (
-        f"Your function is correct if {gains} has 7 entries. It fails or is wrong "
-        f"for a single number, as in the lab's {lab}. Which multiplication operator "
-        "accepts arrays and single numbers?"
-    )
-    return HeldOut("one-number-as-gain", says, inputs)
+
+    def says(failing=(), usual=()):
+        how = "stops" if any(call.reply.kind for call in failing) else "is wrong"
+        return (
+            f"Your function is correct if {many}. It {how} if {one}. Which "
+            "multiplication operator accepts arrays and single numbers?"
+        )
+
+    return HeldOut("one-number-as-gain", says(), inputs, told=says)
 
 
 def wrapped(angle):

@@ -14,7 +14,8 @@ def sags_of_one_gain(rng):
     return [(q, seven(rng, -40, 40), kp) for q, kp in gains]
 
 
-row = Row(ANGLE, held_out=[one_gain(sags_of_one_gain, "kp", "KP")])
+ONE_NUMBER = "kp is a single number, such as the lab's KP"
+row = Row(ANGLE, held_out=[one_gain(sags_of_one_gain, "kp has 7 entries", ONE_NUMBER)])
 
 
 @row.inputs

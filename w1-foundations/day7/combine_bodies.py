@@ -83,8 +83,9 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """products-not-moved: your parallel-axis theorem changes only the diagonal of each
-      inertia. Subtract the off-diagonal entries of m d d^T as well
+    """products-not-moved: your code applies the parallel-axis theorem only to the
+      diagonal of each inertia matrix. Subtract the off-diagonal entries of m d d^T as
+      well
     distance-not-squared: your parallel-axis theorem uses the distance itself. Use the
       squared distance d . d
     """

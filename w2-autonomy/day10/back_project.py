@@ -58,7 +58,7 @@ def not_scaled(ray, d):
 for slug, says, other in (
     ("range-for-depth", "your code uses the depth as the distance along the ray. The "
                         "depth is measured along the camera's z axis, so scale the "
-                        "ray until its z is the depth",
+                        "ray such that its z component equals the depth",
      {"ray": unit_ray}),
     ("K-for-its-inverse", "your code multiplies the pixel by K. Use the inverse of K, "
                           "because K maps points to pixels",

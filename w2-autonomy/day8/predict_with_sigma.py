@@ -42,9 +42,9 @@ def _(Y, tau, Y_new, rtol):
       subtract it
     rank-taken-off-last: your code divides the sum of the squared residuals by n and
       then subtracts the rank. Divide the sum by n - rank instead
-    noise-for-sigma: your sigma is the noise level for every row y of Y_new. Multiply
-      the noise level by the norm of y V S^-1, which is larger for a row that the data
-      hardly determine
+    noise-for-sigma: your code returns the same sigma, the noise level, for every row of
+      Y_new. For each row y, multiply the noise level by the norm of y V S^-1. This norm
+      is large if the data hardly constrain the prediction for y
     sigma-by-s-squared: your sigma contains the factor S^-2. Use S^-1 instead, because
       sigma is the noise level times the norm of y V S^-1 for each row y of Y_new
     sigma-with-V: your sigma uses V^T instead of V. The third result of numpy.linalg.svd

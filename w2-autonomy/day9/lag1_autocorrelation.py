@@ -75,8 +75,8 @@ for slug, says, other in (
                     "squares. Divide the sum of the products by the sum of the "
                     "squares instead",
      {"share": lambda n: 1 / n}),
-    ("lag-two", "your code multiplies each entry by the second entry after it. "
-                "Multiply each entry by its direct neighbour",
+    ("lag-two", "your code uses lag 2: it multiplies each entry by the entry two "
+                "positions later. Use lag 1: multiply each entry by the next entry",
      {"pairs": lambda d: d[2:] @ d[:-2]}),
     ("lag-zero", "your code multiplies each entry by itself, so the result is always "
                  "1. Multiply each entry by its neighbour", {"pairs": lambda d: d @ d}),
