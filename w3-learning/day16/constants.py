@@ -55,8 +55,8 @@ def third(wait=LAB.WAIT, updates=LAB.UPDATES, seed=LAB.SEED):
 
 @numbers.add(
     "KL divergence at the dock, nats", "{:.1f}",
-    beta=between(0.0, 0.5, "a nat costs twice as much, and z collapses"),
-    chunk=between(0.4, 0.7, "the side concerns early entries, half of the mean"),
+    beta=between(0.0, 0.5, "each nat adds twice as much to the loss, so z collapses"),
+    chunk=between(0.4, 0.7, "the early entries show the side, and each has half the weight"),
     seed=between(0.8, 1.2, "another coin of the same kind", to=2),
 )  # fmt: skip
 def dock(beta=LAB.BETA, chunk=LAB.K, seed=LAB.SEED):

@@ -54,9 +54,9 @@ def luck(rate=0.695, starts=50, gap=5):
 
 @numbers.add(
     "power of the sign test", "{:.2f}",
-    win=between(1.3, 1.6, "more starts differ, and more of them are wins"),
+    win=between(1.3, 1.6, "there are more wins, and as many losses"),
     lose=between(0.4, 0.6, "the split is less uneven"),
-    starts=between(1.3, 1.6, "twice as many starts that differ"),
+    starts=between(1.3, 1.6, "twice as many wins and losses"),
     level=between(1.05, 1.3, "smaller differences are reported"),
 )  # fmt: skip
 def power(win=0.24, lose=0.05, starts=50, level=0.05):

@@ -91,9 +91,9 @@ def backprop(
     """Return the gradients of W1, b1, W2, b2, W3, b3 and of x, in their shapes.
 
     The network is `mlp` of Day 15: tanh, tanh, linear. x (n, a) has one sample per
-    row, and d (n, m) is the gradient of any loss with respect to the outputs. All
-    weights 1, biases 0, x 0 and d 1 give 0, 1, 0, 1, 0, 1 and 1. With the weights 2, 3
-    and 1 the gradient of x is 6.
+    row, and d (n, m) is the gradient of any loss with respect to the outputs. For
+    one unit per layer, weights 1, biases 0, x 0 and d 1, the gradients are 0, 1, 0, 1,
+    0, 1 and 1. With the weights 2, 3 and 1 the gradient of x is 6.
     """
     # region 16.3
     first = np.tanh(x @ W1 + b1)  # outputs of the first layer
@@ -113,11 +113,11 @@ def backprop(
 
 
 def started_share(wait: int, K: int) -> np.ndarray:
-    """Return the fraction (K,) of the chunks that have started by each entry.
+    """Return the fraction (K,) of the rows in which each entry is at full speed.
 
     During a pause of `wait` steps the observation does not change, so wait + 1 rows
-    have the same input: 0, 1, ... or wait steps remain until the start. Entry j,
-    counted from 0, is at full speed in the chunks in which at most j steps remain.
+    have the same input. In these rows 0, 1, ..., wait steps remain until the motion
+    starts. Entry j, counted from 0, is at full speed if at most j steps remain.
     started_share(1, 3) -> [0.5, 1, 1]
     """
     # region 16.4
@@ -155,10 +155,10 @@ def encoder_gradient(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the gradients with respect to mu and logvar, (n, z) each.
 
-    dz (n, z) is the gradient of a first loss with respect to the samples of
+    dz (n, z) is the gradient of the decoder's loss with respect to the samples of
     `reparameterise`, whose arguments mu, logvar and noise are (n, z). The whole loss
-    is the first loss plus beta times the KL divergence of `kl_to_prior`, summed over
-    the columns and averaged over the n rows.
+    is the decoder's loss plus beta times the KL divergence of `kl_to_prior`, summed
+    over the columns and averaged over the n rows.
     encoder_gradient([[2]], [[1]], [[0]], [[0.5]], 0.1) -> ([[2.1]], [[0.5]])
     """
     # region 16.7
@@ -171,7 +171,7 @@ def encoder_gradient(
 
 
 def temporal_ensemble(plans: np.ndarray, decay: float) -> np.ndarray:
-    """Return the weighted mean (m,) of what several plans predict for this step.
+    """Return the weighted mean (m,) of several plans' actions for this step.
 
     plans (k, K, m) are the chunks of the last k steps, k <= K, the oldest first. Plan
     i was made k - 1 - i steps ago, and its first entry was for that step. The weight
@@ -191,7 +191,7 @@ def ensemble_noise(k: int, decay: float) -> float:
 
     Each error has the standard deviation 1, and the weights are as in
     `temporal_ensemble`.
-    ensemble_noise(8, 0.01) -> 0.353646
+    ensemble_noise(2, log(2)) -> 0.745356
     """
     # region 16.8
     weight = np.exp(-decay * np.arange(k))  # the weights before their sum is 1

@@ -22,7 +22,7 @@ import day15_mujoco
 SEED = 1  # of the demonstrations, the initial weights and the batches
 EACH = 10  # demonstrations, or runs of the policy, of a round
 ROUNDS = 3  # the first has demonstrations only
-DRIVES = 60  # actions of an episode, in which the policy drives; 60 are all of them
+DRIVES = 60  # actions of each episode that the policy drives; 60 are all of them
 WITH_LAST = False  # True: the policy also observes its last action, as the copycat
 STARTS_SEED = 1000  # of the starts that policies are tested on
 TESTED = 200  # starts
@@ -30,7 +30,7 @@ UNITS = 48  # of each hidden layer
 UPDATES = 1000  # steps of Adam
 BATCH = 256  # rows of a step
 RATE = 0.003  # step size at the first update; it falls to 0 as a cosine
-WAIT = 120  # actions, that a dawdling demonstrator stands still
+WAIT = 120  # actions during which a dawdling demonstrator stands still
 DAWDLERS = 20  # demonstrations; half of them stand still first
 GAINS = (3.0, 1.0, 0.0)  # 1/s, of the steering, in the test of the error growth
 SIDEWAYS = 0.001  # m/s, the constant error of a policy
@@ -65,10 +65,10 @@ def error_after(a: float, step: float, T: int) -> float:
 def aggregate(first: tuple, second: tuple) -> tuple[np.ndarray, ...]:
     """Return two data sets as one: (observation, action, episode).
 
-    Both arguments are such triples, of observations (n, d), actions (n, m) and the
-    numbers (n,) of the episodes, each with its own n. The rows of second follow those
-    of first, and its episodes are numbered from the largest number in first plus 1. In
-    second the numbers begin at 0. Episodes (0, 3) and (0, 1) become (0, 3, 4, 5).
+    Each argument has observations (n, d), actions (n, m) and the episode number (n,) of
+    each row; n differs. The rows of second follow the rows of first, and its episodes,
+    which begin at 0, are numbered from the largest number in first plus 1.
+    Episodes (0, 3) and (0, 1) become (0, 3, 4, 5).
     """
     # region 18.2
     seen = np.vstack([first[0], second[0]])  # the observations of both
@@ -132,8 +132,8 @@ def gap_by_luck(p: float, n: int, gap: int) -> float:
     """Return the probability that two tests of one policy differ by at least a gap.
 
     Each test has n independent starts, and the policy succeeds on each with the
-    probability p. gap is a difference of two numbers of successes, a whole number and
-    not a rate. The difference may have either sign. gap_by_luck(0.7, 50, 5) -> 0.325656
+    probability p. gap is a whole number of successes, not a rate. The difference may
+    have either sign. gap_by_luck(0.5, 2, 1) -> 0.625
     """
     # region 18.5
     pmf = binomial_pmf(n, p)  # probabilities of the successes of one test
