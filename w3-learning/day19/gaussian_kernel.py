@@ -1,0 +1,74 @@
+"""19.2 `gaussian_kernel(sigma, half)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row
+
+row = Row(Matrix((None, None), scale=0.1))
+
+
+@row.inputs
+def _(rng):
+    yield 1.0, 1
+    yield 0.8, 0  # one pixel
+    yield from ((0.5, 1), (1.5, 2), (3.0, 2), (1.2, 4))
+    yield float(rng.numbers(0.5, 2.5)), int(rng.integers(1, 5))
+
+
+row.cases(
+    one_pixel=lambda sigma, half: half == 0,
+    several_pixels=lambda sigma, half: half > 0,
+)
+
+
+@row.wrongs
+def _(sigma, half):
+    """not-normalised: your kernel is 1 in the middle. Divide by the sum of all entries,
+      so that a blurred image is as bright as before
+    by-the-integral: your kernel is divided by 2 pi sigma^2, the integral of the
+      Gaussian. The sum over pixels differs from the integral, so divide by the sum of
+      the entries
+    rows-normalised: each row of your kernel has the sum 1. All entries together should
+      have the sum 1
+    half-forgotten: your exponent is -d^2 / sigma^2. For the standard deviation sigma it
+      is -d^2 / (2 sigma^2)
+    one-sided: your kernel has its maximum at entry [0, 0]. It should be in the middle,
+      so count the pixels from there
+    """
+    at = np.arange(-half, half + 1)
+    d2 = at**2 + at[:, None] ** 2
+    g = np.exp(-d2 / (2 * sigma**2))
+    narrow = np.exp(-d2 / sigma**2)
+    side = np.exp(-((at + half) ** 2) / (2 * sigma**2))
+    return {
+        "not-normalised": g,
+        "by-the-integral": g / (2 * np.pi * sigma**2),
+        "rows-normalised": g / g.sum(axis=1, keepdims=True),
+        "half-forgotten": narrow / narrow.sum(),
+        "one-sided": np.outer(side, side) / side.sum() ** 2,
+    }
+
+
+row.at_least_0(sigma="a width", half="a number of pixels", answer="a weight")
+
+
+@row.right  # A loop over the pixels.
+def _(sigma, half):
+    n = 2 * half + 1
+    kernel = np.zeros((n, n))
+    for i in range(n):
+        for j in range(n):
+            d2 = (i - half) ** 2 + (j - half) ** 2
+            kernel[i, j] = np.exp(-0.5 * d2 / sigma**2)
+    return kernel / np.sum(kernel)
+
+
+@row.right  # One axis is normalised, and the density has its factor.
+def _(sigma, half):
+    x = np.linspace(-half, half, 2 * half + 1)
+    row = np.exp(-0.5 * (x / sigma) ** 2) / np.sqrt(2 * np.pi * sigma**2)
+    row = row / row.sum()
+    return row[:, None] * row[None, :]
+
+
+row.spans(sigma=(0.3, 5.0), half=(0, 29))

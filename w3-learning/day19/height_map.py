@@ -1,0 +1,93 @@
+"""19.1 `height_map(centres, radii, xs, ys)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row
+
+row = Row(Matrix((None, None), "m", scale=0.05))
+
+
+def view(rng, k, w, h, size=0.05):
+    """Return k spheres and the coordinates of w columns and h rows, m."""
+    xs, ys = (np.sort(size * rng.numbers(-2, 2, n)) for n in (w, h))
+    radii = size * rng.numbers(0.5, 2, k)
+    return size * rng.numbers(-1.5, 1.5, k, 2), radii, xs, ys
+
+
+@row.inputs
+def _(rng):
+    yield np.zeros((1, 2)), np.array([0.05]), np.array([0.0, 0.03]), np.zeros(1)
+    # The later sphere is lower where both are hit, and then higher.
+    both = np.array([[0.0, 0], [0.03, 0.01]])
+    line = np.array([-0.02, 0.0, 0.02, 0.05])
+    for radii in ((0.05, 0.03), (0.03, 0.05)):
+        yield both, np.array(radii), line, np.array([-0.01, 0.01])
+    for k, w, h in ((1, 4, 2), (2, 3, 5), (3, 5, 4), (2, 4, 4)):
+        yield view(rng, k, w, h)
+    yield view(rng, *(int(n) for n in rng.integers(2, 6, 3)))
+
+
+row.cases(
+    one_sphere=lambda centres, radii, xs, ys: len(radii) == 1,
+    several_spheres=lambda centres, radii, xs, ys: len(radii) > 1,
+)
+
+
+@row.wrongs
+def _(centres, radii, xs, ys):
+    """root-forgotten: your heights are r^2 - d^2. Take the square root
+    added: in your code, the heights of several spheres are added. A ray from above
+      stops at the highest of them
+    flat: your spheres are as high at their edge as in the middle. At the distance d
+      from the centre, the height is sqrt(r^2 - d^2)
+    cone: your heights are r - d, a cone. The surface is a sphere, so r is the
+      hypotenuse of a right triangle with the sides d and height
+    last-wins: in your code, a later sphere replaces an earlier one also where the later
+      one is lower. A ray from above stops at the highest sphere
+    """
+    dx = xs - centres[:, 0, None, None]
+    dy = ys[:, None] - centres[:, 1, None, None]
+    d2 = dx**2 + dy**2
+    r = radii[:, None, None]
+    hit = d2 < r**2
+    square = np.maximum(r**2 - d2, 0)
+    last = np.zeros(square.shape[1:])
+    for one, some in zip(square, hit):
+        last[some] = np.sqrt(one[some])
+    return {
+        "root-forgotten": square.max(axis=0),
+        "added": np.sqrt(square).sum(axis=0),
+        "flat": (hit * r).max(axis=0),
+        "cone": np.maximum(r - np.sqrt(d2), 0).max(axis=0),
+        "last-wins": last,
+    }
+
+
+row.at_least_0(radii="a radius", answer="a height above the table")
+
+
+@row.right  # Ray by ray.
+def _(centres, radii, xs, ys):
+    image = np.zeros((len(ys), len(xs)))
+    for i in range(len(ys)):
+        for j in range(len(xs)):
+            for k in range(len(radii)):
+                d = np.hypot(xs[j] - centres[k, 0], ys[i] - centres[k, 1])
+                if d < radii[k]:
+                    image[i, j] = max(image[i, j], (radii[k] ** 2 - d**2) ** 0.5)
+    return image
+
+
+@row.right  # All spheres at once.
+def _(centres, radii, xs, ys):
+    X, Y = np.meshgrid(xs, ys)
+    d2 = (X[..., None] - centres[:, 0]) ** 2 + (Y[..., None] - centres[:, 1]) ** 2
+    return np.sqrt(np.clip(radii**2 - d2, 0, None).max(axis=-1))
+
+
+@row.spans
+def _(rng):
+    for size in (0.002, 0.01, 0.1):
+        yield view(rng, 3, 9, 12, size)
+    grid = np.linspace(-0.55, 0.55, 12)
+    yield np.array([[-0.4, 0.4]]), np.array([0.05]), grid, grid

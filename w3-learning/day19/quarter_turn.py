@@ -1,0 +1,83 @@
+"""19.8 `quarter_turn(images, action, k)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+from labkit.judge.kinds import Kind
+
+row = Row((
+    Kind((None, None, None), called="the images"),
+    Vector((2,), called="the action"),
+))  # fmt: skip
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[[1.0, 2], [3, 4]]]), np.array([0.1, 0.2]), 1
+    for c, h, k in ((1, 2, 2), (2, 3, 3), (3, 2, -1), (2, 4, 0), (2, 3, 5), (1, 3, -6)):
+        yield rng.numbers(-1, 1, c, h, h), rng.numbers(-1, 1, 2), k
+    c, h = (int(n) for n in rng.integers(2, 5, 2))
+    yield rng.numbers(-1, 1, c, h, h), rng.numbers(-1, 1, 2), int(rng.integers(-4, 9))
+
+
+row.cases(
+    a_quarter_turn=lambda images, action, k: k % 4 == 1,
+    a_half_turn=lambda images, action, k: k % 4 == 2,
+    three_quarter_turns=lambda images, action, k: k % 4 == 3,
+    no_turn=lambda images, action, k: k % 4 == 0,
+)
+
+
+@row.wrongs
+def _(images, action, k):
+    """action-not-turned: your images rotate and your action does not. The action is a
+      velocity in the same plane, so it rotates with the scene
+    action-the-other-way: your action rotates from y towards x. Like the scene, it
+      should rotate from x towards y
+    image-the-other-way: your images rotate from y towards x. The rows of an image go
+      along increasing y, so np.rot90 with a positive k rotates them this way
+    mirrored: your images are mirrored instead of rotated. Mirrored and rotated images
+      differ by one flip
+    """
+    right = np.rot90(images, -k, (1, 2))
+    x, y = action
+    turned = np.array([(x, y), (-y, x), (-x, -y), (y, -x)][k % 4])
+    back = np.array([(x, y), (y, -x), (-x, -y), (-y, x)][k % 4])
+    mirror = images[:, :, ::-1] if k % 4 == 2 else images.transpose(0, 2, 1)
+    return {
+        "action-not-turned": (right, action),
+        "action-the-other-way": (right, back),
+        "image-the-other-way": (np.rot90(images, k, (1, 2)), turned),
+        "mirrored": (images if k % 4 == 0 else mirror, turned),
+    }
+
+
+row.same(
+    "for _ in range(k % 4): => for _ in range(k % 8):",
+    "four quarter turns change nothing",
+)
+
+
+@row.right  # By np.rot90 and a rotation matrix.
+def _(images, action, k):
+    c, s = round(np.cos(k * np.pi / 2)), round(np.sin(k * np.pi / 2))
+    turned = np.array([[c, -s], [s, c]]) @ action
+    return np.rot90(images, -k, axes=(1, 2)).copy(), turned
+
+
+@row.right  # Pixel by pixel, one turn after the other.
+def _(images, action, k):
+    h = images.shape[1]
+    for _ in range(k % 4):
+        new = np.zeros(images.shape)
+        for i in range(h):
+            for j in range(h):
+                new[:, i, j] = images[:, h - 1 - j, i]
+        images, action = new, np.array([-action[1], action[0]])
+    return np.array(images), np.array(action)
+
+
+@row.spans
+def _(rng):
+    for size in (1e-3, 0.2):
+        yield size * rng.numbers(0, 1, 2, 12, 12), size * rng.numbers(-1, 1, 2), 7
