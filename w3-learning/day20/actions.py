@@ -5,7 +5,7 @@ import numpy as np
 
 def gaussians(rng):
     """Yield actions, means and log_std; the docstring's case comes first."""
-    yield np.ones((1, 1)), np.zeros((1, 1)), np.log([2.0]).round(6)
+    yield np.ones((1, 1)), np.zeros((1, 1)), np.array([0.693147])
     for n, m in ((1, 2), (3, 1), (4, 2), (2, 3)):
         yield rng.numbers(-1, 1, n, m), rng.numbers(-1, 1, n, m), rng.numbers(-1, 1, m)
     yield rng.numbers(-1, 1, 3, 2), rng.numbers(-1, 1, 3, 2), np.zeros(2)  # std 1

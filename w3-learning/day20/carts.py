@@ -21,7 +21,7 @@ def problems(rng):
 def problem(rng, k, m, std, T):
     """Return one random problem with k states and m inputs."""
     A = (0.7 * np.eye(k) + rng.numbers(-0.3, 0.3, k, k)).round(4)
-    B = rng.numbers(0.3, 1, k, m)
+    B = rng.numbers(-1, 1, k, m)
     Q, R, S = (positive(rng, size) for size in (k, m, k))
     return rng.numbers(-0.5, 0.6, m, k), std, A, B, Q, R, S, T
 

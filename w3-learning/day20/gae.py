@@ -19,7 +19,10 @@ def ends(T, n, true=(), cut=()):
 
 def episodes(rng, T, n, gamma, lam, **how):
     """Return the arguments of some episodes."""
-    return *rng.numbers(-1, 2, 3, T, n), *ends(T, n, **how), gamma, lam
+    terminated, ended = ends(T, n, **how)
+    reward, value, after = rng.numbers(-1, 2, 3, T, n)
+    after[:-1] = np.where(ended[:-1], after[:-1], value[1:])
+    return reward, value, after, terminated, ended, gamma, lam
 
 
 @row.inputs

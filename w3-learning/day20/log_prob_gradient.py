@@ -66,6 +66,6 @@ def _(action, mean, log_std):
 
 @row.spans
 def _(rng):
-    wide = np.array([-3.0, 3.0])
-    for size in (1e-3, 30.0):
+    wide = np.array([-0.9, 2.0])
+    for size in (1e-3, 3.0):
         yield size * rng.numbers(-1, 1, 3, 2), size * rng.numbers(-1, 1, 3, 2), wide

@@ -127,9 +127,7 @@ def _(logp, old_logp, advantage, clip):
     loss, slope = 0.0, np.zeros(len(logp))
     for i, A in enumerate(advantage):
         r = np.exp(min(logp[i] - old_logp[i], 500.0))
-        most = 1 + clip if A >= 0 else r
-        least = 1 - clip if A < 0 else r
-        used = max(min(r, most), least)
+        used = min(r, 1 + clip) if A >= 0 else max(r, 1 - clip)
         loss -= used * A / len(logp)
         slope[i] = -r * A / len(logp) if used == r else 0.0
     return loss, slope

@@ -18,7 +18,7 @@ from robo47.policy import success_rate
 
 import day15_mujoco
 
-SEED = 1  # of the demonstrations, the initial weights and all draws
+SEED = 2  # of the demonstrations, the initial weights and all draws
 # The cart of Day 13: a position and a velocity, pushed by a force.
 A = np.array([[1.0, 0.1], [0.0, 1.0]])
 B = np.array([[0.005], [0.1]])
@@ -53,7 +53,7 @@ def log_prob(action: np.ndarray, mean: np.ndarray, log_std: np.ndarray) -> np.nd
 
     action and mean are (n, m). The m entries of an action are independent, and log_std
     (m,) has the logarithms of their standard deviations.
-    log_prob([[1]], [[0]], [ln 2]) -> [-1.737086]
+    log_prob([[1]], [[0]], [0.693147]) -> [-1.737086]
     """
     # region 20.1
     z = (action - mean) / np.exp(log_std)  # distance from the mean, in standard units
@@ -69,7 +69,7 @@ def log_prob_gradient(
 
     The arguments are those of `log_prob`. Each row of the results, (n, m) both, belongs
     to one action.
-    log_prob_gradient([[1]], [[0]], [ln 2]) -> ([[0.25]], [[-0.75]])
+    log_prob_gradient([[1]], [[0]], [0.693147]) -> ([[0.25]], [[-0.75]])
     """
     # region 20.1
     std = np.exp(log_std)  # standard deviation of each entry
@@ -110,9 +110,10 @@ def gae(
     after each step. terminated is True where the state after the step is worth 0. ended
     is True at the last step of an episode: there, terminated is True for a true end and
     False for an episode that was cut off. The row after an end belongs to another
-    episode. The factors gamma and lam are from 0 to 1. Rewards 1, 1 with the values
-    0.5, 0.5, the next values 0.5, 2, and both factors 0.5 give 1.125, 1.5 if the second
-    step is cut off, and 0.875, 0.5 if it terminates.
+    episode. Elsewhere next_value is the value of the next row. The factors gamma and
+    lam are from 0 to 1. Rewards 1, 1 with the values 0.5, 0.5, the next values 0.5, 2,
+    and both factors 0.5 give 1.125, 1.5 if the second step is cut off, and 0.875, 0.5
+    if it terminates.
     """
     # region 20.3
     worth = np.where(terminated, 0, next_value)  # value of the state after the step
@@ -173,9 +174,9 @@ def policy_cost(
     """Return the expected cost of T steps with the policy u = -K x + std z.
 
     The entries of z are independent standard normal numbers. The system is x+ = A x + B
-    u, and a step costs x^T Q x + u^T R u. S is the matrix E[x x^T] at the start. K is
-    (m, k) and may be complex. With 1 for all matrices but K = 0.5, and T = 2, the cost
-    is 1.5625 for std 0 and 4.8125 for std 1.
+    u, and a step costs x^T Q x + u^T R u. S is the matrix E[x x^T] at the start. With 1
+    for all matrices but K = 0.5, and T = 2, the cost is 1.5625 for std 0 and 4.8125 for
+    std 1.
     """
     # region 20.6
     M = A - B @ K  # the closed loop
@@ -306,13 +307,25 @@ def exact(lab: Lab) -> np.ndarray:
     """Return the exact gradient of the return, (2,), after checking it."""
     rest = STD, A, B, Q, R, START, HORIZON
     slope = policy_cost_gradient(GAIN, *rest)
-    by_steps = cloning.complex_step(lambda K: policy_cost(K, *rest), [GAIN])[0]
-    print(f"  expected cost {policy_cost(GAIN, *rest):.4f}")
+    by_steps = cloning.complex_step(cost_by_values, [GAIN])[0]
+    cost = policy_cost(GAIN, *rest)
+    lab.check("policy_cost - by the values", cost - cost_by_values(GAIN))
+    print(f"  expected cost {cost:.4f}")
     print(f"  gradient of the return ({-slope[0, 0]:.3f}, {-slope[0, 1]:.3f})")
     lab.record(
         "exact", slope / by_steps - 1, label="|gradient / by the complex step - 1|"
     )
     return -slope[0]
+
+
+def cost_by_values(K: np.ndarray):
+    """Return the cost of the cart from the value of its start; K may be complex."""
+    M = A - B @ K
+    P, noise = np.zeros((2, 2)), 0.0
+    for _ in range(HORIZON):
+        noise = noise + STD**2 * np.trace(R + B.T @ P @ B)
+        P = Q + K.T @ R @ K + M.T @ P @ M
+    return noise + np.trace(P @ START)
 
 
 def descend(lab: Lab) -> None:
