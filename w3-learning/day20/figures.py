@@ -20,12 +20,10 @@ import day15_mujoco
 
 MM = 1000.0
 SILENT = SimpleNamespace(training=lambda title, steps: range(1, steps + 1))
-SHOWN = {  # estimators of the picture, and their colours
-    "whole return": GREY,
-    "return to go": ORANGE,
-    "half the value, lambda 0.5": RED,
-    "exact value, lambda 1": BLUE,
-}
+SHOWN = (  # estimators of both clouds, their colours, and the range of the axes
+    ((("whole return", GREY), ("return to go", ORANGE)), 75),
+    ((("half the value, lambda 0.5", RED), ("exact value, lambda 1", BLUE)), 15),
+)
 
 
 @cache
@@ -53,35 +51,37 @@ def trained():
     return np.array(counts), {"the clone": runs[0], "improved": runs[1]}
 
 
-@chart.picture(height=3.6)
+@chart.picture(height=7.2)
 def reward(figure: Figure) -> None:
     """Draw the estimates of one gradient, and what a reward improves."""
-    cloud, gain = figure.subplots(1, 2)
-    _cloud(cloud)
+    above, below = figure.subfigures(2, 1, height_ratios=(1.25, 1.0))
+    cart = lab.Cart(np.random.default_rng(lab.SEED), lab.BATCHES * lab.EACH)
+    weights = lab.weights_of(cart)
+    for axes, (some, most) in zip(above.subplots(1, 2), SHOWN, strict=True):
+        for name, colour in some:
+            x, y = cart.estimates(weights[name]).T
+            axes.plot(x, y, ".", ms=4, color=colour, label=name)
+        _exact(axes)
+        axes.set(xlim=(-most, most), ylim=(-most, most), aspect="equal")
+        axes.set(xlabel="first entry", ylabel="second entry")
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0))
+        axes.grid()
+    gain = below.subplots()
     counts = trained()[0]
     x = 5 * np.arange(len(counts))
-    gain.plot(x, counts[:, 0], "o-", color=BLUE, label="MuJoCo")
+    gain.plot(x, counts[:, 0], "o-", color=BLUE, label="in MuJoCo")
     gain.plot(x, counts[:, 1], "s--", color=ORANGE, label="by the equation")
-    gain.set(title="Pucks at home", xlabel="iterations", ylabel=f"of {lab.TESTED}")
-    gain.set(ylim=(0.4 * lab.TESTED, 0.85 * lab.TESTED))
-    gain.legend(loc="lower right")
+    gain.set(xlabel="iterations of PPO", ylabel=f"pucks at home, of {lab.TESTED}")
+    gain.set(ylim=(0.4 * lab.TESTED, 0.8 * lab.TESTED))
+    gain.legend(loc="upper left")
     gain.grid()
 
 
-def _cloud(axes: Axes) -> None:
-    """Draw 200 estimates of each estimator, and the exact gradient."""
-    cart = lab.Cart(np.random.default_rng(lab.SEED), lab.BATCHES * lab.EACH)
-    weights = lab.weights_of(cart)
+def _exact(axes: Axes) -> None:
+    """Draw the exact gradient of the return."""
     rest = lab.STD, lab.A, lab.B, lab.Q, lab.R, lab.START, lab.HORIZON
     truth = -lab.policy_cost_gradient(lab.GAIN, *rest)[0]
-    for name, colour in SHOWN.items():
-        some = cart.estimates(weights[name])
-        axes.plot(*some.T, ".", ms=3, color=colour, label=name)
     axes.plot(*truth, "+", color=INK, ms=14, mew=2, label="exact gradient")
-    axes.set(title="200 estimates of one gradient", xlim=(-60, 75), ylim=(-60, 75))
-    axes.set(xlabel="first entry", ylabel="second entry", aspect="equal")
-    axes.legend(loc="upper left", fontsize=7)
-    axes.grid()
 
 
 def bodies(axes: Axes, seen: np.ndarray) -> None:

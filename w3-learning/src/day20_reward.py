@@ -43,6 +43,7 @@ ITERATIONS = 25  # of PPO
 EPISODES = 128  # of each iteration
 EPOCHS, PARTS = 4, 6  # passes over the data of an iteration, and batches of a pass
 PPO_RATE, CLIP, GAMMA, LAM = 0.001, 0.2, 0.98, 0.95
+SHUFFLED = False  # True: each action gets the advantage of another
 STARTS_SEED = 1000  # of the starts that policies are tested on
 TESTED = 200  # starts
 TICK, TOUCH = day15_mujoco.TICK, day15_mujoco.R  # s and m
@@ -518,6 +519,8 @@ def rows_of(policy: Policy, rng: np.random.Generator):
     x, drawn = inputs[:-1].reshape(-1, 5), drawn.reshape(-1, 2)
     logp = log_prob(drawn, cloning.mlp(x[:, :4], *policy.actor), policy.log_std)
     advantage = advantage.ravel()
+    if SHUFFLED:
+        advantage = rng.permutation(advantage)
     return x, drawn, logp, (advantage - advantage.mean()) / advantage.std(), target
 
 
