@@ -32,7 +32,7 @@ MU, TARGET, NOISE = 1.2, 0.5, 0.4
 DRAWS = 200_000  # of this action
 HORIZON = 30  # steps of an episode of the cart
 BATCHES, EACH = 200, 100  # estimates of the gradient, and episodes of each
-DESCENT, STEP_SIZE = 300, 0.02  # steps along the exact gradient, and their size
+DESCENT, STEP_SIZE = 300, 0.1  # steps along the exact gradient, and their size
 # The puck of Day 15.
 DEMOS = 20  # demonstrations of the clone
 UNITS = 32  # of each hidden layer
@@ -575,7 +575,7 @@ def told(name: str, home: np.ndarray, equation: np.ndarray) -> None:
     """Print the rounded numbers of pucks at home, and Wilson's interval."""
     n, other = (5 * round(np.sum(some) / 5) for some in (home, equation))
     _, low, high = success_rate(np.arange(len(home)) < n)
-    print(f"  {name:18} about {n:3} of {len(home)}, 95 %: {low:.2f} to {high:.2f}, "
+    print(f"  {name:10} about {n:3} of {len(home)}, 95 %: {low:.2f} to {high:.2f}, "
           f"by the equation about {other:3}")  # fmt: skip
 
 
