@@ -1,6 +1,6 @@
 """Day 20 in the inspector: the tab Reward.
 
-Forty estimates of one gradient are points of the scene: the first entry along x and the
+Thirty estimates of one gradient are points of the scene: the first entry along x and the
 second along y, and the exact gradient is a small sphere. Two sliders change lambda and
 the value function. The student's `gae` and `policy_gradient` compute the estimates, and
 `policy_cost_gradient` the sphere.
@@ -18,7 +18,7 @@ from robo47 import reward
 from robo47.checks import Array
 
 LAB = lab_of(find_day(20))
-SOME, EACH = 40, 100  # estimates, and episodes of each
+SOME, EACH = 30, 100  # estimates, and episodes of each
 METRE = 0.04  # m in the scene for each unit of the gradient
 TRUTH = (LAB.STD, LAB.A, LAB.B, LAB.Q, LAB.R, LAB.START, LAB.HORIZON)
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Matrix, Row
 
-from .carts import moments, of_sizes, problem, problems
+from .carts import cart, moments, of_sizes, problem, problems
 
 row = Row(Matrix((None, None)))
 
@@ -109,6 +109,7 @@ def _(rng):
     for size in (1e-3, 1e3):
         yield of_sizes(size)(rng)
     yield problem(rng, 2, 1, 0.5, 30)
+    yield cart(rng)
 
 
 row.at_least_0(std="a standard deviation", T="a number")

@@ -66,4 +66,4 @@ def _(score, advantage):
 @row.spans
 def _(rng):
     for size in (1e-3, 1e3):
-        yield size * rng.numbers(-1, 1, 30, 100, 2), rng.numbers(-9, 2, 30, 100)
+        yield size * rng.numbers(-1, 1, 30, 9, 2), rng.numbers(-300, 2, 30, 9)

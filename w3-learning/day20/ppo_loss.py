@@ -144,7 +144,8 @@ def _(logp, old_logp, advantage, clip):
 @row.spans
 def _(rng):
     for size in (1e-3, 1e3):
-        yield *logps(rng, 8), size * rng.numbers(-1, 1, 8), 0.2
+        logp, old = logps(rng, 8)
+        yield 12 + logp, 12 + old, size * rng.numbers(-1, 1, 8), 0.2
 
 
 row.at_least_0(clip="half the width of a range")

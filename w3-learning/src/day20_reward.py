@@ -29,9 +29,10 @@ GAIN = np.array([[1.0, 1.5]])  # of the policy whose gradient is estimated
 STD = 0.5  # of its force
 # One action of one step: its mean, the best action, and its std.
 MU, TARGET, NOISE = 1.2, 0.5, 0.4
-DRAWS = 200_000  # of this action
+DRAWS = 40_000  # of this action
 HORIZON = 30  # steps of an episode of the cart
 BATCHES, EACH = 200, 100  # estimates of the gradient, and episodes of each
+PIECES = 10  # of all episodes, each of which is one call of your functions
 DESCENT, STEP_SIZE = 300, 0.1  # steps along the exact gradient, and their size
 # The puck of Day 15.
 DEMOS = 20  # demonstrations of the clone
@@ -151,7 +152,7 @@ def ppo_loss(
     policy and by the policy that drew them; r = exp(logp - old_logp). The loss is minus
     the mean of min(r A, r' A), where A is the advantage, and r' is r clipped to the
     range from 1 - clip to 1 + clip. A ratio r that overflows should not give NaN.
-    Ratios 1.5 and 0.5 with the advantages 1 and -1 and clip 0.2: (-0.2, [0, 0])
+    ppo_loss([0.405465, -0.693147], [0, 0], [1, -1], 0.2) -> (-0.2, [0, 0])
     """
     # region 20.5
     ratio = np.exp(np.minimum(logp - old_logp, 600))  # ratios, which do not overflow
@@ -358,9 +359,11 @@ class Cart:
             forces.append(u)
             self.x.append(x)
         self.reward = np.array(rewards)  # (T, n)
-        flat = [np.vstack(some) for some in (forces, means)]
-        slope = log_prob_gradient(*flat, np.log([STD]))[0].reshape(HORIZON, n, 1)
-        self.score = -slope * np.array(self.x[:-1])  # (T, n, 2), as the mean is -GAIN x
+        slope = [
+            log_prob_gradient(u, mean, np.log([STD]))[0]
+            for u, mean in zip(forces, means, strict=True)
+        ]
+        self.score = -np.array(slope) * self.x[:-1]  # (T, n, 2), as the mean is -GAIN x
         self.value = self.values()
 
     def values(self) -> np.ndarray:
@@ -379,7 +382,10 @@ class Cart:
         value = share * self.value
         end = np.zeros(self.reward.shape, dtype=bool)
         end[-1] = True
-        return gae(self.reward, value[:-1], value[1:], end, end, 1.0, lam)
+        return in_pieces(
+            lambda got, now, after, end: gae(got, now, after, end, end, 1.0, lam),
+            self.reward, value[:-1], value[1:], end,
+        )  # fmt: skip
 
     def estimates(self, advantage: np.ndarray) -> np.ndarray:
         """Return the estimate of the gradient of each batch, (BATCHES, 2)."""
@@ -388,9 +394,15 @@ class Cart:
         return np.array([policy_gradient(*pair) for pair in pairs])
 
 
+def in_pieces(function, *arrays: np.ndarray) -> np.ndarray:
+    """Return a function's result for some episodes at a time, (T, n)."""
+    split = [np.array_split(one, PIECES, axis=1) for one in arrays]
+    return np.hstack([function(*piece) for piece in zip(*split, strict=True)])
+
+
 def weights_of(cart: Cart) -> dict[str, np.ndarray]:
     """Return the weights of the actions, (T, n), by the name of the estimator."""
-    ahead = returns(cart.reward, 1.0, np.zeros(cart.reward.shape[1]))
+    ahead = in_pieces(lambda got: returns(got, 1.0, 0 * got[0]), cart.reward)
     return {
         "whole return": np.broadcast_to(ahead[0], ahead.shape),
         "return to go": ahead,
