@@ -1,7 +1,7 @@
 """Day 20 in the inspector: the tab Reward.
 
-Thirty estimates of one gradient are points of the scene: the first entry along x and the
-second along y, and the exact gradient is a small sphere. Two sliders change lambda and
+Thirty estimates of one gradient are points of the scene: the first entry along x, the
+second along y. The exact gradient is a small sphere. Two sliders change lambda and
 the value function. The student's `gae` and `policy_gradient` compute the estimates, and
 `policy_cost_gradient` the sphere.
 """
