@@ -172,7 +172,8 @@ def ppo_loss(
 
     Returns:
         (loss, gradient): the gradient is -ratio A / n, and 0 where the clipped term is
-        the smaller one. A ratio too large for float64 counts as the largest number.
+        the smaller one. Exponents are limited to 600, so that no
+        ratio overflows.
 
     Raises:
         ValueError: a wrong shape, a number that is not finite, or clip not above 0.
@@ -267,7 +268,7 @@ def policy_cost_gradient(
 
 
 def effective_samples(logp: ArrayLike, old_logp: ArrayLike) -> float:
-    """Return how many samples reweighted ones are worth: (sum w)^2 / sum w^2.
+    """Return the effective sample size of reweighted samples, (sum w)^2 / sum w^2.
 
     The importance weights are w = exp(logp - old_logp); the largest exponent is
     subtracted first, which changes nothing and cannot overflow.

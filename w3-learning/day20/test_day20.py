@@ -145,8 +145,10 @@ def test_a_mistake_hides_where_the_guide_says():
     got, value, after = rng.normal(size=(3, 5, 2))
     end = np.zeros((5, 2), dtype=bool)
     end[-1] = True
-    one, two = (lab.gae(got, value, w, end, end, 0.9, 0.8) for w in (after, after))
-    assert one == pytest.approx(two)
+    for true_end, same in ((end, True), (0 * end, False)):
+        right = lab.gae(got, value, after, true_end, end, 0.9, 0.8)
+        wrong = lab.gae(got, value, np.where(end, 0, after), true_end, end, 0.9, 0.8)
+        assert np.allclose(right, wrong) == same
 
 
 def test_data_without_a_clip_are_soon_worth_less():

@@ -69,8 +69,8 @@ def log_prob_gradient(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the gradients of `log_prob` with respect to mean and to log_std.
 
-    The arguments are those of `log_prob`. Each row of the results, (n, m) both, belongs
-    to one action.
+    `log_prob` has the same arguments. Each row of the results, (n, m) both, belongs to
+    one action.
     log_prob_gradient([[1]], [[0]], [0.693147]) -> ([[0.25]], [[-0.75]])
     """
     # region 20.1
@@ -204,7 +204,7 @@ def policy_cost_gradient(
 ) -> np.ndarray:
     """Return the gradient of `policy_cost` with respect to K, in its shape.
 
-    The arguments are those of `policy_cost`. With 1 for all matrices but K = 0.5, and
+    `policy_cost` has the same arguments. With 1 for all matrices but K = 0.5, and
     T = 2, the gradient is 0 for std 0 and 1 for std 1.
     """
     # region 20.7
@@ -377,9 +377,9 @@ class Cart:
             P = Q + GAIN.T @ R @ GAIN + M.T @ P @ M
         return np.array(out[::-1])
 
-    def advantage(self, share: float, lam: float) -> np.ndarray:
-        """Return the advantages with a share of the exact value function."""
-        value = share * self.value
+    def advantage(self, fraction: float, lam: float) -> np.ndarray:
+        """Return the advantages with a fraction of the exact value function."""
+        value = fraction * self.value
         end = np.zeros(self.reward.shape, dtype=bool)
         end[-1] = True
         return in_pieces(
@@ -603,15 +603,15 @@ def improve(lab: Lab, start: np.ndarray) -> None:
         x, drawn, old_logp, *_ = rows
         mean = cloning.mlp(x[:, :4], *policy.actor)
         logp = log_prob(drawn, mean, policy.log_std)
-        beyond = np.abs(np.exp(logp - old_logp) - 1) > CLIP
+        beyond = np.abs(np.exp(logp - old_logp) - 1) > 0.2
         fresh.append((effective_samples(logp, old_logp) / len(x), np.mean(beyond)))
 
     ppo(lab, policy, data_left)
     run, last = tested(policy.act, start)
     told("improved", run.home(), at_home(last))
     left, beyond = np.mean(fresh, axis=0)
-    print(f"  after an iteration the data are worth {100 * left:.0f} % of the samples, "
-          f"and\n  {100 * beyond:.0f} % of the ratios are beyond the clip")  # fmt: skip
+    print(f"  after an iteration the data are worth {100 * left:.0f} % of the samples,")
+    print(f"  and {100 * beyond:.0f} % of the ratios are not within 0.8 and 1.2")
     lab.record("gained", np.sum(run.home()) - np.sum(before), metric="starts",
                label="pucks after minus before", seed=SEED)  # fmt: skip
 
