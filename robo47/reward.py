@@ -219,14 +219,13 @@ def policy_cost(
     Raises:
         ValueError: a wrong shape, or T below 1.
     """
-    K, std, A, B, Q, R, S = _problem(K, std, A, B, Q, R, S, T)
-    M = A - B @ K
-    weight = Q + K.T @ R @ K
-    noise = std**2 * B @ B.T
-    total, X = T * std**2 * np.trace(R), S
+    gain, width, a, b, q, r, moment = _problem(K, std, A, B, Q, R, S, T)
+    M = a - b @ gain
+    weight = q + gain.T @ r @ gain
+    total = T * width**2 * np.trace(r)
     for _ in range(T):
-        total = total + np.trace(weight @ X)
-        X = M @ X @ M.T + noise
+        total = total + np.trace(weight @ moment)
+        moment = M @ moment @ M.T + width**2 * b @ b.T
     cost: float = total.item()
     return cost
 
@@ -255,15 +254,15 @@ def policy_cost_gradient(
     Raises:
         ValueError: a wrong shape, or T below 1.
     """
-    K, std, A, B, Q, R, S = _problem(K, std, A, B, Q, R, S, T)
-    M = A - B @ K
-    moments = [S]
+    gain, width, a, b, q, r, moment = _problem(K, std, A, B, Q, R, S, T)
+    M = a - b @ gain
+    moments = [moment]
     for _ in range(T - 1):
-        moments.append(M @ moments[-1] @ M.T + std**2 * B @ B.T)
-    P, total = np.zeros_like(Q), np.zeros_like(K)
+        moments.append(M @ moments[-1] @ M.T + width**2 * b @ b.T)
+    P, total = np.zeros_like(q), np.zeros_like(gain)
     for X in reversed(moments):
-        total = total + 2.0 * (R @ K - B.T @ P @ M) @ X
-        P = Q + K.T @ R @ K + M.T @ P @ M
+        total = total + 2.0 * (r @ gain - b.T @ P @ M) @ X
+        P = q + gain.T @ r @ gain + M.T @ P @ M
     return total
 
 
