@@ -107,4 +107,4 @@ def small() -> Image.Image:
 
 
 FIGURES = {"reward": reward}
-SMALL = (small, "20.9 and 1.52")  # of a table of days, and its number
+SMALL = (small, "20.9 or 1.52")  # of a table of days, and its number

@@ -92,7 +92,7 @@ def returns(reward: np.ndarray, gamma: float, last: np.ndarray) -> np.ndarray:
     after = last  # return from the next step on
     for t in reversed(range(len(reward))):
         after = reward[t] + gamma * after  # return from this step on
-        out[t] = after
+        out[t] = after  # the returns so far
     return out
     # endregion 20.2
 
@@ -123,8 +123,9 @@ def gae(
     out = np.zeros(reward.shape)  # the advantages
     after = np.zeros(reward.shape[1])  # advantage of the next step
     for t in reversed(range(len(reward))):
-        after = delta[t] + gamma * lam * np.where(ended[t], 0, after)  # and of this one
-        out[t] = after
+        kept = np.where(ended[t], 0, after)  # 0 where another episode follows
+        after = delta[t] + gamma * lam * kept  # advantage of this step
+        out[t] = after  # the advantages so far
     return out
     # endregion 20.3
 
