@@ -1,0 +1,58 @@
+"""Linear systems with a cost and a policy as questions: no two sizes equal."""
+
+import numpy as np
+
+
+def problems(rng):
+    """Yield K, std, A, B, Q, R, S and T; the docstring's cases come first."""
+    one = np.ones((1, 1))
+    for std in (0.0, 1.0):
+        yield 0.5 * one, std, one, one, one, one, one, 2
+    for k, m, std, T in (
+        (2, 1, 0.5, 3),
+        (2, 2, 0.8, 1),
+        (3, 2, 0.0, 4),
+        (1, 1, 1.5, 4),
+        (3, 1, 0.6, 5),
+    ):
+        yield problem(rng, k, m, std, T)
+
+
+def problem(rng, k, m, std, T):
+    """Return one random problem with k states and m inputs."""
+    A = (0.7 * np.eye(k) + rng.numbers(-0.3, 0.3, k, k)).round(4)
+    B = rng.numbers(-1, 1, k, m)
+    Q, R, S = (positive(rng, size) for size in (k, m, k))
+    return rng.numbers(-0.5, 0.6, m, k), std, A, B, Q, R, S, T
+
+
+def positive(rng, n):
+    """Return a symmetric, positive definite matrix."""
+    root = rng.numbers(-0.5, 0.5, n, n)
+    return (np.eye(n) + root + root.T).round(4) if n > 1 else rng.numbers(0.5, 2, 1, 1)
+
+
+def moments(K, std, A, B, S, T, noise=True):
+    """Return E[x x^T] before each of T steps, and after the last."""
+    M = A - B @ K
+    out = [S]
+    for _ in range(T):
+        out.append(M @ out[-1] @ M.T + noise * std**2 * B @ B.T)
+    return out
+
+
+def cart(rng):
+    """Return Day 13's cart, with a gain as large as the lab's."""
+    A, B = np.array([[1.0, 0.1], [0, 1]]), np.array([[0.005], [0.1]])
+    Q, R, S = np.diag([1.0, 0.1]), np.array([[0.1]]), np.diag([1.0, 0.5])
+    return rng.numbers(1, 3, 1, 2), 0.5, A, B, Q, R, S, 30
+
+
+def of_sizes(size):
+    """Return problems as large, or as small, as `size` times the usual ones."""
+
+    def yields(rng):
+        K, std, A, B, Q, R, S, T = problem(rng, 2, 1, 0.5, 4)
+        return K, std * size**0.5, A, B, Q, R, size * S, T
+
+    return yields

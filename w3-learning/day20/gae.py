@@ -1,0 +1,152 @@
+"""20.3 `gae(reward, value, next_value, terminated, ended, gamma, lam)`."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row
+
+row = Row(Matrix((None, None)))
+
+
+def ends(T, n, true=(), cut=()):
+    """Return both flags, (T, n): true ends, and ends that are cut off, at (t, n)."""
+    terminated, ended = np.zeros((2, T, n), dtype=bool)
+    for at in true:
+        terminated[at] = ended[at] = True
+    for at in cut:
+        ended[at] = True
+    return terminated, ended
+
+
+def episodes(rng, T, n, gamma, lam, **how):
+    """Return the arguments of some episodes."""
+    terminated, ended = ends(T, n, **how)
+    reward, value, after = rng.numbers(-1, 2, 3, T, n)
+    after[:-1] = np.where(ended[:-1], after[:-1], value[1:])
+    return reward, value, after, terminated, ended, gamma, lam
+
+
+@row.inputs
+def _(rng):
+    ones = np.ones((2, 1))
+    values = 0.5 * ones, np.array([[0.5], [2]])
+    yield ones, *values, *ends(2, 1, cut=[(1, 0)]), 0.5, 0.5
+    yield ones, *values, *ends(2, 1, true=[(1, 0)]), 0.5, 0.5
+    yield episodes(rng, 5, 2, 0.9, 0.8, true=[(1, 0), (4, 1)], cut=[(4, 0), (2, 1)])
+    yield episodes(rng, 4, 3, 0.8, 0.5, true=[(1, 0)], cut=[(1, 2), (3, 1)])
+    yield episodes(rng, 1, 2, 0.7, 0.6, true=[(0, 1)], cut=[(0, 0)])
+    yield episodes(rng, 4, 2, 0.6, 0.9)  # the rows stop before the episode does
+    yield episodes(rng, 4, 2, 1.0, 0.7, true=[(2, 0)], cut=[(1, 1)])
+    yield episodes(rng, 4, 2, 0.9, 1.0, true=[(1, 1)], cut=[(2, 0)])
+    yield episodes(rng, 3, 2, 0.9, 0.0, true=[(1, 1)], cut=[(2, 0)])
+
+
+row.cases(
+    episodes_that_terminate=lambda r, v, w, terminated, ended, g, lam: bool(
+        ended.any() and not (ended & ~terminated).any()
+    ),
+    episodes_that_are_cut_off=lambda r, v, w, terminated, ended, g, lam: bool(
+        ended.any() and not terminated.any()
+    ),
+    episodes_without_an_end=lambda r, v, w, terminated, ended, g, lam: not ended.any(),
+)
+
+
+@row.rare
+def _(rng):
+    yield episodes(rng, 4, 2, 0.8, 0.7, true=[(1, 0), (2, 1)])
+    yield episodes(rng, 4, 2, 0.8, 0.7, cut=[(1, 0), (2, 1)])
+    yield episodes(rng, 3, 2, 0.8, 0.7)
+
+
+def backwards(delta, factor):
+    """Return the sums delta[t] + factor[t] times the next one."""
+    out, after = np.zeros(delta.shape), np.zeros(delta.shape[1])
+    for t in reversed(range(len(delta))):
+        after = delta[t] + factor[t] * after
+        out[t] = after
+    return out
+
+
+@row.wrongs
+def _(reward, value, next_value, terminated, ended, gamma, lam):
+    """cut-off-is-terminated: your code replaces next_value by 0 wherever an episode
+      ended. An episode that was cut off would have continued, so keep next_value there
+    runs-through-ends: your sums continue into the row after an end, which belongs to
+      another episode. Drop the advantage of the next row where ended is True
+    runs-through-cut-offs: your sums stop at true ends only. The row after a cut-off
+      belongs to another episode as well, so use ended
+    end-one-late: your sums stop one row too early or too late. Drop the advantage of
+      row t + 1 where ended is True in row t
+    never-terminated: your code uses next_value after a true end as well. Where
+      terminated is True, the state after the step is worth 0
+    next-rows-value: your code uses the value of the next row instead of next_value. At
+      an end the next row is the first state of another episode
+    lambda-forgotten: your sum lacks the factor lam. The advantage of the next row has
+      the factor gamma lam
+    gamma-not-in-the-sum: your sum has the factor lam only. The advantage of the next
+      row has the factor gamma lam
+    targets-returned: your function returns the advantage plus the value, which is the
+      target of the value function. Return the advantage
+    """
+    worth = np.where(terminated, 0, next_value)
+    delta = reward + gamma * worth - value
+    on = gamma * lam * ~ended
+    late = np.vstack([ended[1:], np.zeros((1, ended.shape[1]), bool)])
+    rows = np.where(terminated, 0, np.vstack([value[1:], next_value[-1:]]))
+    right = backwards(delta, on)
+    always = gamma * lam * np.ones(delta.shape)
+
+    def with_worth(some):
+        return backwards(reward + gamma * some - value, on)
+
+    return {
+        "cut-off-is-terminated": with_worth(np.where(ended, 0, next_value)),
+        "runs-through-ends": backwards(delta, always),
+        "runs-through-cut-offs": backwards(delta, gamma * lam * ~terminated),
+        "end-one-late": backwards(delta, gamma * lam * ~late),
+        "never-terminated": with_worth(next_value),
+        "next-rows-value": with_worth(rows),
+        "lambda-forgotten": backwards(delta, gamma * ~ended),
+        "gamma-not-in-the-sum": backwards(delta, lam * ~ended),
+        "targets-returned": right + value,
+    }
+
+
+@row.right  # As a double sum that stops at ends.
+def _(reward, value, next_value, terminated, ended, gamma, lam):
+    T, n = reward.shape
+    out = np.zeros((T, n))
+    for t in range(T):
+        for i in range(n):
+            for k in range(t, T):
+                worth = 0.0 if terminated[k, i] else next_value[k, i]
+                delta = reward[k, i] + gamma * worth - value[k, i]
+                out[t, i] += (gamma * lam) ** (k - t) * delta
+                if ended[k, i]:
+                    break
+    return out
+
+
+@row.right  # By the lambda-return, minus the value.
+def _(reward, value, next_value, terminated, ended, gamma, lam):
+    worth = next_value * (1 - terminated)
+    out = np.zeros(reward.shape)
+    after = worth[-1]
+    for t in range(len(reward) - 1, -1, -1):
+        after = np.where(ended[t], worth[t], (1 - lam) * worth[t] + lam * after)
+        after = reward[t] + gamma * after
+        out[t] = after
+    return out - value
+
+
+@row.spans
+def _(rng):
+    for size in (1e-3, 1e3):
+        end = {"true": [(59, 0)], "cut": [(59, 1), (30, 0)]}
+        reward, value, after, *rest = episodes(rng, 60, 2, 0.98, 0.95, **end)
+        yield size * reward, size * value, size * after, *rest
+
+
+row.at_least_0(
+    terminated="True or False", ended="True or False", gamma="a factor", lam="a factor"
+)

@@ -1,0 +1,82 @@
+"""20.1 `log_prob(action, mean, log_std)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+from .actions import gaussians
+
+row = Row(Vector((None,)))
+
+
+@row.inputs
+def _(rng):
+    yield from gaussians(rng)
+
+
+row.cases(
+    a_std_of_1=lambda action, mean, log_std: not log_std.any(),
+    another_std=lambda action, mean, log_std: bool(log_std.any()),
+)
+row.cases(
+    one_entry=lambda action, mean, log_std: len(log_std) == 1,
+    several_entries=lambda action, mean, log_std: len(log_std) > 1,
+)
+
+
+@row.wrongs
+def _(action, mean, log_std):
+    """determinant-forgotten: your result lacks the term -log_std of each entry. A wide
+      Gaussian has a lower density, because its integral is 1
+    log-std-as-std: your code uses log_std as the standard deviation. Use exp(log_std)
+    half-forgotten: your exponent lacks the factor 1/2
+    averaged: your result is the mean over the entries. The entries are independent, so
+      the density is a product, and its logarithm is a sum
+    not-squared: your code uses |z| instead of z^2. The exponent of a Gaussian is -z^2/2
+    prob: your result is the density. Return its logarithm
+    constant-once: your result has the term -ln(2 pi)/2 once. Each of the entries has
+      this term
+    variance: your code divides by the variance before the square. Divide by the
+      standard deviation, and then square
+    """
+    std = np.exp(log_std)
+    z = (action - mean) / std
+    const = 0.5 * np.log(2 * np.pi)
+
+    def by(square, width=log_std):
+        return (-square / 2 - width - const).sum(axis=1)
+
+    right = by(z**2)
+    some = np.where(log_std == 0, 1e-9, log_std)
+    return {
+        "determinant-forgotten": by(z**2, 0),
+        "log-std-as-std": by(((action - mean) / some) ** 2, np.log(np.abs(some))),
+        "half-forgotten": by(2 * z**2),
+        "averaged": right / len(log_std),
+        "not-squared": by(np.abs(z)),
+        "prob": np.exp(right),
+        "constant-once": right + (len(log_std) - 1) * const,
+        "variance": by((z / std) ** 2),
+    }
+
+
+@row.right  # By the density of each entry.
+def _(action, mean, log_std):
+    var = np.exp(log_std) ** 2
+    p = np.exp(-((action - mean) ** 2) / (2 * var)) / np.sqrt(2 * np.pi * var)
+    return np.log(p).sum(axis=1)
+
+
+@row.right  # With a covariance matrix, row by row.
+def _(action, mean, log_std):
+    C = np.diag(np.exp(2 * log_std))
+    _, log_det = np.linalg.slogdet(2 * np.pi * C)
+    e = action - mean
+    return np.array([-0.5 * (a @ np.linalg.solve(C, a) + log_det) for a in e])
+
+
+@row.spans
+def _(rng):
+    wide = np.array([-0.9, 2.0])
+    for size in (1e-3, 3.0):
+        yield size * rng.numbers(-1, 1, 3, 2), size * rng.numbers(-1, 1, 3, 2), wide

@@ -1,0 +1,71 @@
+"""20.1 `log_prob_gradient(action, mean, log_std)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row
+
+from .actions import gaussians
+
+row = Row((
+    Matrix((None, None), called="the gradient of the mean"),
+    Matrix((None, None), called="the gradient of log_std"),
+))  # fmt: skip
+
+
+@row.inputs
+def _(rng):
+    yield from gaussians(rng)
+
+
+row.cases(
+    a_std_of_1=lambda action, mean, log_std: not log_std.any(),
+    another_std=lambda action, mean, log_std: bool(log_std.any()),
+)
+
+
+@row.wrongs
+def _(action, mean, log_std):
+    """not-divided-again: your gradient of the mean is z. The derivative of -z^2/2 with
+      respect to the mean is z / std, because z itself is divided by std
+    by-the-action: your gradient of the mean has the wrong sign, as the derivative with
+      respect to the action has. A higher mean makes a high action more likely
+    by-std: your second gradient is with respect to std. With respect to log_std it is
+      std times as large
+    determinant-forgotten: your gradient of log_std is z^2. The term -log_std of the
+      log-probability has the derivative -1
+    half: your gradient of log_std has z^2/2. The derivative of -z^2/2 with respect to
+      log_std is z^2
+    """
+    std = np.exp(log_std)
+    z = (action - mean) / std
+    right = z / std, z**2 - 1
+    return {
+        "not-divided-again": (z, right[1]),
+        "by-the-action": (-right[0], right[1]),
+        "by-std": (right[0], right[1] / std),
+        "determinant-forgotten": (right[0], z**2),
+        "half": (right[0], z**2 / 2 - 1),
+    }
+
+
+@row.right  # With the variance.
+def _(action, mean, log_std):
+    var = np.exp(2 * log_std)
+    e = action - mean
+    return e / var, (e**2 - var) / var
+
+
+@row.right  # By the complex step.
+def _(action, mean, log_std):
+    def each(mean, log_std):
+        return -(((action - mean) / np.exp(log_std)) ** 2) / 2 - log_std
+
+    h = 1e-30
+    return each(mean + 1j * h, log_std).imag / h, each(mean, log_std + 1j * h).imag / h
+
+
+@row.spans
+def _(rng):
+    wide = np.array([-0.9, 2.0])
+    for size in (1e-3, 3.0):
+        yield size * rng.numbers(-1, 1, 3, 2), size * rng.numbers(-1, 1, 3, 2), wide

@@ -1,0 +1,99 @@
+"""20.6 `policy_cost(K, std, A, B, Q, R, S, T)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Scalar
+
+from .carts import cart, moments, of_sizes, problem, problems
+
+row = Row(Scalar())
+
+
+@row.inputs
+def _(rng):
+    yield from problems(rng)
+
+
+row.cases(
+    a_policy_without_noise=lambda K, std, A, B, Q, R, S, T: std == 0,
+    a_policy_with_noise=lambda K, std, A, B, Q, R, S, T: std > 0,
+)
+row.cases(
+    one_step=lambda K, std, A, B, Q, R, S, T: T == 1,
+    several_steps=lambda K, std, A, B, Q, R, S, T: T > 1,
+)
+
+
+@row.wrongs
+def _(K, std, A, B, Q, R, S, T):
+    """noise-not-propagated: in your code, the noise does not move the state. Add std^2
+      B B^T to E[x x^T] in each step
+    noise-costs-nothing: your cost omits the noise of the input itself. Each step costs
+      std^2 tr(R) in addition
+    control-free: your cost omits K^T R K, the cost of the mean input
+    one-step-more: your sum also contains the state after the last step
+    without-the-start: your sum begins with the state after the first step. Begin with S
+    sign-of-K: your closed loop is A + B K. The policy is u = -K x, so it is A - B K
+    noise-once: your cost contains the noise of the input once. Each of the T steps has
+      its own noise
+    transposed: your E[x x^T] is multiplied by M^T X M. The new state is M x, so use M X
+      M^T
+    std-not-squared: your code uses std where the variance std^2 belongs
+    """
+    weight = Q + K.T @ R @ K
+    X = moments(K, std, A, B, S, T)
+    own = std**2 * np.trace(R)
+
+    def total(weight, X, noise=T * own):
+        return noise + sum(np.trace(weight @ one) for one in X)
+
+    root = max(std, 0.0) ** 0.5
+    quiet = moments(K, std, A, B, S, T, noise=False)
+    other = moments(-K, std, A, B, S, T)
+    M = A - B @ K
+    turned = [S]
+    for _ in range(T - 1):
+        turned.append(M.T @ turned[-1] @ M + std**2 * B @ B.T)
+    return {
+        "noise-not-propagated": total(weight, quiet[:-1]),
+        "noise-costs-nothing": total(weight, X[:-1], 0),
+        "control-free": total(Q, X[:-1]),
+        "one-step-more": total(weight, X),
+        "without-the-start": total(weight, X[1:]),
+        "sign-of-K": total(weight, other[:-1]),
+        "noise-once": total(weight, X[:-1], own),
+        "transposed": total(weight, turned),
+        "std-not-squared": total(
+            weight, moments(K, root, A, B, S, T)[:-1], T * std * np.trace(R)),
+    }  # fmt: skip
+
+
+@row.right  # By the cost-to-go, from the last step to the first.
+def _(K, std, A, B, Q, R, S, T):
+    M = A - B @ K
+    P, cost = np.zeros(Q.shape), 0.0
+    for _ in range(T):
+        cost = cost + std**2 * np.trace(R + B.T @ P @ B)
+        P = Q + K.T @ R @ K + M.T @ P @ M
+    return cost + np.sum(P * S)
+
+
+@row.right  # With E[u u^T] of each step.
+def _(K, std, A, B, Q, R, S, T):
+    cost, X = 0.0, S
+    for _ in range(T):
+        U = K @ X @ K.T + std**2 * np.eye(len(R))
+        cost = cost + np.trace(Q @ X) + np.trace(R @ U)
+        X = A @ X @ A.T - A @ X @ K.T @ B.T - B @ K @ X @ A.T + B @ U @ B.T
+    return cost
+
+
+@row.spans
+def _(rng):
+    for size in (1e-3, 1e3):
+        yield of_sizes(size)(rng)
+    yield problem(rng, 2, 1, 0.5, 30)
+    yield cart(rng)
+
+
+row.at_least_0(std="a standard deviation", T="a number", answer="a cost")

@@ -1,0 +1,115 @@
+"""20.7 `policy_cost_gradient(K, std, A, B, Q, R, S, T)`: questions and mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row
+
+from .carts import cart, moments, of_sizes, problem, problems
+
+row = Row(Matrix((None, None)))
+
+
+@row.inputs
+def _(rng):
+    yield from problems(rng)
+
+
+row.cases(
+    a_policy_without_noise=lambda K, std, A, B, Q, R, S, T: std == 0,
+    a_policy_with_noise=lambda K, std, A, B, Q, R, S, T: std > 0,
+)
+row.cases(
+    one_step=lambda K, std, A, B, Q, R, S, T: T == 1,
+    several_steps=lambda K, std, A, B, Q, R, S, T: T > 1,
+)
+
+
+def costs_to_go(K, A, B, Q, R, T):
+    """Return P after each of T steps, and before the first: P_T = 0, ..., P_0."""
+    M = A - B @ K
+    out = [np.zeros(Q.shape)]
+    for _ in range(T):
+        out.append(Q + K.T @ R @ K + M.T @ out[-1] @ M)
+    return out[::-1]
+
+
+@row.wrongs
+def _(K, std, A, B, Q, R, S, T):
+    """P-one-late: your code uses the cost-to-go before the step. The input of a step
+      changes the next state, so use the P after the step
+    two-forgotten: your gradient lacks the factor 2 of the derivative of a square
+    moments-forgotten: your gradient lacks E[x x^T]. The gain acts on the state, so each
+      step's part is multiplied by it
+    future-forgotten: your gradient has the term R K only. The input of a step also
+      changes the states that follow
+    noise-forgotten: your E[x x^T] lacks the noise. Add std^2 B B^T in each step, as in
+      `policy_cost`
+    start-only: your code uses S in every step. Use E[x x^T] of each step
+    return-sign: your gradient has the wrong sign. It belongs to the cost, not to the
+      return
+    effort-forgotten: your P lacks K^T R K, the cost of the mean input
+    """
+    M = A - B @ K
+    P = costs_to_go(K, A, B, Q, R, T)
+    X = moments(K, std, A, B, S, T)[:-1]
+    quiet = moments(K, std, A, B, S, T, noise=False)[:-1]
+    free = costs_to_go(K, A, B, Q, 0 * R, T)
+
+    def total(P, X):
+        return sum(2 * (R @ K - B.T @ p @ M) @ x for p, x in zip(P, X, strict=True))
+
+    right = total(P[1:], X)
+    none = [np.zeros(Q.shape)] * T
+    return {
+        "P-one-late": total(P[:-1], X),
+        "two-forgotten": right / 2,
+        "moments-forgotten": total(P[1:], [np.eye(len(S))] * T),
+        "future-forgotten": total(none, X),
+        "noise-forgotten": total(P[1:], quiet),
+        "start-only": total(P[1:], [S] * T),
+        "return-sign": -right,
+        "effort-forgotten": total(free[1:], X),
+    }
+
+
+def cost(K, std, A, B, Q, R, S, T):
+    """Return the part of the cost that depends on K."""
+    X = moments(K, std, A, B, S, T)[:-1]
+    return sum(np.trace((Q + K.T @ R @ K) @ one) for one in X)
+
+
+@row.right  # By the complex step through the cost.
+def _(K, std, A, B, Q, R, S, T):
+    slope = np.zeros(K.shape)
+    for at in np.ndindex(K.shape):
+        some = K.astype(complex)
+        some[at] += 1e-30j
+        slope[at] = cost(some, std, A, B, Q, R, S, T).imag / 1e-30
+    return slope
+
+
+@row.right  # By the derivative of E[x x^T], entry by entry.
+def _(K, std, A, B, Q, R, S, T):
+    M, weight = A - B @ K, Q + K.T @ R @ K
+    slope = np.zeros(K.shape)
+    for at in np.ndindex(K.shape):
+        dK = np.zeros(K.shape)
+        dK[at] = 1.0
+        X, dX = S, np.zeros(S.shape)
+        for _ in range(T):
+            slope[at] += np.trace(weight @ dX) + 2 * np.trace(K.T @ R @ dK @ X)
+            half = -B @ dK @ X @ M.T
+            dX = M @ dX @ M.T + half + half.T
+            X = M @ X @ M.T + std**2 * B @ B.T
+    return slope
+
+
+@row.spans
+def _(rng):
+    for size in (1e-3, 1e3):
+        yield of_sizes(size)(rng)
+    yield problem(rng, 2, 1, 0.5, 30)
+    yield cart(rng)
+
+
+row.at_least_0(std="a standard deviation", T="a number")

@@ -1,0 +1,69 @@
+"""20.4 `policy_gradient(score, advantage)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+row = Row(Vector((None,)))
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[[1.0]], [[2.0]]]), np.array([[3.0], [1.0]])
+    for T, n, d in ((1, 3, 2), (3, 1, 2), (2, 4, 3), (4, 2, 1), (3, 2, 4)):
+        yield rng.numbers(-1, 1, T, n, d), rng.numbers(-1, 2, T, n)
+
+
+row.cases(
+    episodes_of_one_step=lambda score, advantage: len(score) == 1,
+    episodes_of_several_steps=lambda score, advantage: len(score) > 1,
+)
+
+
+@row.wrongs
+def _(score, advantage):
+    """mean-over-steps: your estimate is divided by the number of steps as well. The
+      gradient of the return is a sum over the steps
+    summed-over-episodes: your estimate is the sum over the episodes. Divide it by the
+      number of episodes
+    sums-multiplied: your code multiplies the summed scores by the summed advantages.
+      Multiply each score by the advantage of its own step
+    first-advantage: your code uses the advantage of the first step for all steps. Each
+      score has the advantage of its own step
+    sign: your estimate has the wrong sign. A step in its direction should increase the
+      return
+    baseline-inside: your code subtracts the mean of the advantages. The caller does
+      this if it wants to, so use the advantages as they are
+    """
+    T, n, _ = score.shape
+    right = np.einsum("tnd,tn->d", score, advantage) / n
+    sums = score.sum(axis=0) * advantage.sum(axis=0)[:, None]
+    return {
+        "mean-over-steps": right / T,
+        "summed-over-episodes": right * n,
+        "sums-multiplied": sums.mean(axis=0),
+        "first-advantage": (score.sum(axis=0) * advantage[0][:, None]).mean(axis=0),
+        "sign": -right,
+        "baseline-inside": np.einsum(
+            "tnd,tn->d", score, advantage - advantage.mean()) / n,
+    }  # fmt: skip
+
+
+@row.right  # Episode by episode.
+def _(score, advantage):
+    T, n, d = score.shape
+    total = np.zeros(d)
+    for i in range(n):
+        total = total + sum(advantage[t, i] * score[t, i] for t in range(T))
+    return total / n
+
+
+@row.right  # As one matrix product.
+def _(score, advantage):
+    return advantage.ravel() @ score.reshape(-1, score.shape[2]) / score.shape[1]
+
+
+@row.spans
+def _(rng):
+    for size in (1e-3, 1e3):
+        yield size * rng.numbers(-1, 1, 30, 9, 2), rng.numbers(-300, 2, 30, 9)

@@ -1,0 +1,95 @@
+"""20.2 `returns(reward, gamma, last)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Matrix, Row
+
+row = Row(Matrix((None, None)))
+
+
+@row.inputs
+def _(rng):
+    yield np.array([[1.0], [2], [3]]), 0.5, np.array([4.0])
+    for T, n, gamma in (
+        (1, 2, 0.8),
+        (3, 1, 1.0),
+        (4, 3, 0.9),
+        (2, 2, 0.0),
+        (5, 2, 0.6),
+    ):
+        yield rng.numbers(-1, 2, T, n), gamma, rng.numbers(-2, 2, n)
+    yield rng.numbers(-1, 2, 3, 2), 0.7, np.zeros(2)
+
+
+row.cases(
+    a_last_value_of_0=lambda reward, gamma, last: not last.any(),
+    another_last_value=lambda reward, gamma, last: bool(last.any()),
+)
+row.cases(
+    a_gamma_of_1=lambda reward, gamma, last: gamma == 1,
+    a_gamma_below_1=lambda reward, gamma, last: gamma < 1,
+)
+
+
+def powers(reward, gamma, last, first=0):
+    """Return the returns with the powers of gamma from `first` on, as sums."""
+    rows = np.vstack([reward, last])
+    T = len(reward)
+    return np.array([gamma ** np.arange(first, T + 1 - t + first) @ rows[t:]
+                     for t in range(T)])  # fmt: skip
+
+
+@row.wrongs
+def _(reward, gamma, last):
+    """from-the-start: your sums run from the first step up to each step. The return of
+      a step consists of its own reward and of the rewards that follow
+    last-forgotten: your returns omit `last`, the value of the state after the last step
+    last-not-discounted: your code adds `last` to the last return without gamma. It is
+      one step later than the last reward
+    discount-by-time: your code discounts each reward by its time since the start. The
+      return of step t discounts the reward of step k by gamma^(k - t)
+    own-reward-discounted: your code multiplies the own reward of a step by gamma as
+      well. The first term of the sum has the factor 1
+    whole: every row of your result is the return of the whole episode. The return of a
+      step omits the rewards before it
+    last-as-reward: in your code, `last` replaces the last reward. Add gamma times
+      `last` to it
+    """
+    T = len(reward)
+    g = gamma ** np.arange(T)[:, None]
+    tail = np.zeros(reward.shape)
+    tail[-1] = last
+    flipped = powers(reward[::-1], gamma, 0 * last)[::-1]
+    by_time = np.cumsum((g * reward)[::-1], axis=0)[::-1] + gamma**T * last
+    right = powers(reward, gamma, last)
+    return {
+        "from-the-start": flipped,
+        "last-forgotten": powers(reward, gamma, 0 * last),
+        "last-not-discounted": powers(reward + tail, gamma, 0 * last),
+        "discount-by-time": by_time,
+        "own-reward-discounted": gamma * powers(reward, gamma, last / max(gamma, 1e-9)),
+        "whole": np.broadcast_to(right[0], right.shape).copy(),
+        "last-as-reward": powers(np.vstack([reward[:-1], last]), gamma, 0 * last),
+    }
+
+
+@row.right  # As sums with powers of gamma.
+def _(reward, gamma, last):
+    return powers(reward, gamma, last)
+
+
+@row.right  # By a matrix of powers.
+def _(reward, gamma, last):
+    T = len(reward)
+    k = np.arange(T)[None, :] - np.arange(T)[:, None]
+    M = np.where(k >= 0, float(gamma) ** np.maximum(k, 0), 0)
+    return M @ reward + np.outer(float(gamma) ** np.arange(T, 0, -1), last)
+
+
+@row.spans
+def _(rng):
+    for size in (1e-3, 1e3):
+        yield size * rng.numbers(-1, 1, 60, 2), 0.98, size * rng.numbers(-1, 1, 2)
+
+
+row.at_least_0(gamma="a discount factor")
