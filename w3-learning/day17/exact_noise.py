@@ -43,6 +43,7 @@ row.at_least_0(abar="a fraction", sigma="a standard deviation", weights="probabi
     hidden={
         "per-coordinate": "the lab's mixture has one dimension",
         "overflow 4": "the lab compares two results that are both 0",
+        "overflow 5": "the lab compares two results that are both 0",
     }
 )
 def _(x, abar, means, sigma, weights):
@@ -78,6 +79,9 @@ def _(x, abar, means, sigma, weights):
       subtracted, which changes the probabilities. Subtract each row's largest exponent
     overflow 4: your result is 0 far from all modes, because every density is 0 there in
       floating-point numbers. Subtract the row's largest exponent before you call exp
+    overflow 5: your code adds a small number to the sum of the densities, so far from
+      all modes, where every density is 0, every probability is 0 as well. Subtract the
+      row's largest exponent before you call exp
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
     given = x, keep, lose, means, sigma, weights

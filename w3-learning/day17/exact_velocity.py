@@ -39,6 +39,7 @@ row.at_least_0(t="from 0 to 1", sigma="a standard deviation", weights="probabili
     hidden={
         "per-coordinate": "the lab's mixture has one dimension",
         "overflow 4": "the lab compares two results that are both 0",
+        "overflow 5": "the lab compares two results that are both 0",
         "division-by-0": "the lab's last step begins before t = 1",
     }
 )
@@ -90,6 +91,9 @@ def _(x, t, means, sigma, weights):
       subtracted, which changes the probabilities. Subtract each row's largest exponent
     overflow 4: your velocity is 0 far from all modes, because every density is 0 there
       in floating-point numbers. Subtract the row's largest exponent before you call exp
+    overflow 5: your code adds a small number to the sum of the densities, so far from
+      all modes, where every density is 0, every probability is 0 as well. Subtract the
+      row's largest exponent before you call exp
     """
     given = x, t, 1 - t, means, sigma, weights
 

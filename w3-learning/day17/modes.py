@@ -40,6 +40,7 @@ def wrong_probabilities(off, variance, weights):
     squares = np.sum(off**2, axis=2)
     power = -squares / (2 * variance)
     likely = np.log(weights) + power
+    plain = weights * np.exp(power)
     single = -(off**2) / (2 * variance)
     single = np.exp(single - single.max(axis=1, keepdims=True))
 
@@ -62,4 +63,5 @@ def wrong_probabilities(off, variance, weights):
         "overflow 2": by(power.max()),
         "overflow 3": by(power.max(axis=0)),
         "overflow 4": np.nan_to_num(by(0)),
+        "overflow 5": (plain / (plain.sum(axis=1, keepdims=True) + 1e-12))[..., None],
     }
