@@ -41,12 +41,15 @@ def _(x0, noise, abar):
       power, so the factors are their square roots
     noise-root-forgotten: your noise has the factor 1 - sqrt(abar). The powers add up to
       1, so the factor is sqrt(1 - abar)
+    abar-as-factor: your factors are abar and sqrt(1 - abar^2), so the fraction abar^2
+      of the data's power is left. The factor of the data is sqrt(abar)
     """
     a = abar[:, None]
     keep = np.sqrt(a)
     return {
         "roots-forgotten": a * x0 + (1 - a) * noise,
         "noise-root-forgotten": keep * x0 + (1 - keep) * noise,
+        "abar-as-factor": a * x0 + np.sqrt(1 - a**2) * noise,
     }
 
 

@@ -39,8 +39,22 @@ def _(T):
       sampler can divide by the root of abar
     from-level-0: your abar of level t is f(t) / f(0), so the first level has no noise.
       Level t ends at f(t + 1)
+    from-level-0 2: your abar of level t is f(t), so the first level has nearly no
+      noise. Level t ends at f(t + 1)
     betas: your result is beta, the fraction that each level removes. Return the product
       of 1 - beta over this level and all before it
+    beta-of-the-start: your beta is the difference f(t) - f(t + 1). Level t removes a
+      fraction of the power that is left, so divide the difference by f(t)
+    betas-added: your code adds the fractions beta and subtracts the sum from 1. Each
+      beta is a fraction of the power that is left, so multiply the numbers 1 - beta
+    offset-outside: in your code, only the offset 0.008 is divided by 1.008. Divide the
+      sum t / T + 0.008 by 1.008
+    abar-limited: your code limits abar itself to at least 0.001. Limit beta to 0.999,
+      and then multiply the numbers 1 - beta
+    ratio-inverted: your ratio is f(t) / f(t + 1), which is above 1. Level t leads from
+      f(t) to f(t + 1), so 1 - beta is f(t + 1) / f(t)
+    always-at-limit: in your code, beta is 0.999 at every level. The limit should act
+      only where 1 - f(t + 1) / f(t) is larger, which is at the last level
     """
     f = np.cos(angle(np.arange(T + 1) / T)) ** 2
     beta = np.minimum(1 - f[1:] / f[:-1], 0.999)
@@ -50,7 +64,14 @@ def _(T):
         "no-offset": of(lambda t: np.cos(t * np.pi / 2) ** 2, T),
         "no-cap": f[1:] / f[0],
         "from-level-0": f[:-1] / f[0],
+        "from-level-0 2": f[:-1],
         "betas": beta,
+        "beta-of-the-start": np.cumprod(1 - np.minimum(f[:-1] - f[1:], 0.999)),
+        "betas-added": 1 - np.cumsum(beta),
+        "offset-outside": of(lambda t: np.cos((t + 0.008 / 1.008) * np.pi / 2) ** 2, T),
+        "abar-limited": np.maximum(f[1:] / f[0], 0.001),
+        "ratio-inverted": np.cumprod(f[:-1] / f[1:]),
+        "always-at-limit": 0.001 ** np.arange(1, T + 1),
     }
 
 

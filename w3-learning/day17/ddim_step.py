@@ -35,15 +35,22 @@ def _(x, eps, abar, prev):
       fractions of the power, so the factors are their square roots
     clipped-at-1: in your code, the clean samples are clipped to -1 to 1, as for images.
       Data outside this range would be lost
+    ddpm-mean: your result is the mean of a random step (task 17.5). A deterministic
+      step adds the noise eps to the clean samples again, with the factor sqrt(1 - prev)
+    last-step-skipped: your result at prev = 1 is x itself. The last step removes all
+      the noise, so its result is the clean samples
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
     back, rest = np.sqrt(prev), np.sqrt(1 - prev)
     clean = (x - lose * eps) / keep
+    alpha = abar / prev
     return {
         "noise-not-put-back": back * clean,
         "clean-returned": clean,
         "prev-not-rooted": prev * clean + (1 - prev) * eps,
         "clipped-at-1": back * np.clip(clean, -1, 1) + rest * eps,
+        "ddpm-mean": (x - (1 - alpha) / lose * eps) / np.sqrt(alpha),
+        "last-step-skipped": back * clean + rest * eps if prev < 1 else x,
     }
 
 

@@ -43,6 +43,24 @@ def _(x, eps, abar, prev, noise):
       noise. The mean is a weighted sum of the clean sample and x
     alpha-inverted: your alpha is prev / abar, which is above 1. From prev to abar the
       signal becomes weaker, so alpha is abar / prev
+    alpha-inverted 2: your two weights use alpha = prev / abar, a number above 1. From
+      prev to abar the signal becomes weaker, so alpha is abar / prev
+    alpha-inverted 3: your alpha is prev / abar, so the variance would be negative, and
+      you take its absolute value. From prev to abar the signal becomes weaker, so alpha
+      is abar / prev
+    eps-of-one-step: your mean subtracts sqrt(1 - alpha) eps from x. eps is the noise of
+      all levels up to abar, so its factor is (1 - alpha) / sqrt(1 - abar)
+    variance-of-prev: your weights are divided by 1 - prev. Divide them by the variance
+      of the innovation, 1 - abar
+    no-fresh-noise: your result is the mean. Add the given noise times the standard
+      deviation
+    gain-without-root: your gain is (1 - prev) / (1 - abar). The measurement x contains
+      sqrt(alpha) times the sample, so the gain also has the factor sqrt(alpha)
+    innovation-at-prev: your code subtracts sqrt(prev) times the clean sample from x.
+      The measurement x is at the level abar, so subtract sqrt(abar) times the clean
+      sample
+    variance-without-root: your variance is (1 - prev) (1 - K). The measurement contains
+      sqrt(alpha) times the sample, so the variance is (1 - prev) (1 - K sqrt(alpha))
     abar-for-alpha: your alpha is abar. A single step keeps the fraction abar / prev
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
@@ -59,7 +77,24 @@ def _(x, eps, abar, prev, noise):
         mean = (x - (1 - alpha) / lose * eps) / np.sqrt(alpha)
         return mean + np.sqrt((1 - prev) * (1 - alpha) / (1 - abar)) * noise
 
+    def inverted(variance):  # the weights of the clean sample and of x
+        up = prev / abar
+        of_both = np.sqrt(prev) * (1 - up) * clean + np.sqrt(up) * (1 - prev) * x
+        return of_both / (1 - abar) + np.sqrt(variance) * noise
+
+    gain = (1 - prev) / (1 - abar)
+    first, root = np.sqrt(prev) * clean, np.sqrt(alpha)
+    no_root = np.sqrt((1 - prev) * (1 - gain * root))
+    up = (1 - prev) * (1 - prev / abar) / (1 - abar)
     return {
+        "alpha-inverted 2": inverted(up),
+        "alpha-inverted 3": inverted(-up),
+        "eps-of-one-step": (x - np.sqrt(beta) * eps) / root + fresh,
+        "variance-of-prev": mean / gain + fresh if prev < 1 else np.nan * x,
+        "no-fresh-noise": mean,
+        "gain-without-root": first + gain * (x - keep * clean) + no_root * noise,
+        "innovation-at-prev": first + gain * root * (x - first) + fresh,
+        "variance-without-root": mean + no_root * noise,
         "beta-for-the-variance": mean + np.sqrt(beta) * noise,
         "level-of-prev": np.sqrt(prev) * clean + np.sqrt(1 - prev) * noise,
         "as-ddim": np.sqrt(prev) * clean + np.sqrt(1 - prev) * eps + fresh,

@@ -10,7 +10,16 @@ row = Row(Vector((None,), called="the average"))
 @row.inputs
 def _(rng):
     yield np.array([1.0]), np.array([2.0]), 0
-    for n, k in ((3, 1), (2, 4), (4, 30), (3, 500), (2, 1789), (3, 1792), (2, 3000)):
+    for n, k in (
+        (3, 1),
+        (2, 4),
+        (4, 30),
+        (3, 500),
+        (2, 1789),
+        (3, 1792),
+        (2, 3000),
+        (3, 50000),
+    ):
         yield rng.numbers(-2, 2, n), rng.numbers(-2, 2, n), k
 
 
@@ -31,6 +40,12 @@ def _(slow, fast, k):
       hundreds of steps
     never-0995: your decay has no upper limit, so the average becomes slower and slower.
       Limit it to 0.995
+    average-before: your decay is k / (9 + k), the decay of one average before. The
+      first average has k = 0 and the decay 1 / 10, so it is (1 + k) / (10 + k)
+    decay-0: your result is the new parameters, because the decay is 0. It is the
+      fraction (1 + k) / (10 + k), which // rounds down to 0
+    plain-mean 2: your old average has the weight k / (k + 1), as in the mean of all new
+      parameters. Its weight is (1 + k) / (10 + k)
     plain-mean: your result is the mean of all parameters so far, which never forgets
       the start
     """
@@ -43,6 +58,9 @@ def _(slow, fast, k):
         "max-for-min": by(max(0.995, grows)),
         "always-0995": by(0.995),
         "never-0995": by(grows),
+        "average-before": by(min(0.995, k / (9 + k))),
+        "decay-0": by(0),
+        "plain-mean 2": by(min(0.995, k / (k + 1))),
         "plain-mean": by((k + 1) / (k + 2)),
     }
 

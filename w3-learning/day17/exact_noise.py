@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Matrix, Row
 
-from .modes import mixtures, posterior
+from .modes import mixtures, posterior, wrong_probabilities
 
 row = Row(
     Matrix((None, None)),
@@ -39,15 +39,27 @@ row.cases(
 row.at_least_0(abar="a fraction", sigma="a standard deviation", weights="probabilities")
 
 
-@row.wrongs
+@row.wrongs(
+    hidden={
+        "per-coordinate": "the lab's mixture has one dimension",
+        "overflow 4": "the lab compares two results that are both 0",
+        "overflow 5": "the lab compares two results that are both 0",
+    }
+)
 def _(x, abar, means, sigma, weights):
     """data-width-forgotten: in your code, the variance of a noisy mode is 1 - abar. The
       data have a width as well, so it is abar sigma^2 + 1 - abar
     data-width-forgotten 2: in your code, the mean distance is divided by sqrt(1 - abar)
       at the end, as if all of it were noise. A part of it is the width of the data:
       multiply by sqrt(1 - abar) / (abar sigma^2 + 1 - abar)
+    data-width-forgotten 3: the variance in your exponent is 1 - abar. The data have a
+      width as well, so it is abar sigma^2 + 1 - abar, as in the factor of the result
+    x-not-deviation: your code multiplies x itself by the gain. Multiply the deviation
+      of x from the mean of each noisy mode, and average over the modes
     nearest-mode: in your code, each row belongs to its nearest mode alone. Take the
       mean over all modes, weighted with their probabilities given x
+    nearest-mode 2: in your code, each row belongs to its most probable mode alone. Take
+      the mean over all modes, weighted with their probabilities given x
     weights-only: in your code, the probability of a mode does not depend on x. Multiply
       its weight by its density at x and normalise
     clean: your result is the mean of the data given x. Return the mean of the noise
@@ -57,6 +69,19 @@ def _(x, abar, means, sigma, weights):
       NaN. Subtract the row's largest exponent before you call exp
     overflow 2: in your code, one number is subtracted from the exponents of all rows.
       Subtract each row's own largest exponent, or a row far from the modes gives 0 / 0
+    over-all-rows: your probabilities add up to 1 over all rows together. Each row has
+      probabilities of its own, so divide by the row's sum
+    over-all-rows 2: your probabilities add up to 1 over all rows together. Each row has
+      probabilities of its own, so divide by the row's sum
+    per-coordinate: in your code, each coordinate of a row has probabilities of its own.
+      A row belongs to one mode: sum the squares over the coordinates in the exponent
+    overflow 3: in your code, the largest exponent of each mode over all rows is
+      subtracted, which changes the probabilities. Subtract each row's largest exponent
+    overflow 4: your result is 0 far from all modes, because every density is 0 there in
+      floating-point numbers. Subtract the row's largest exponent before you call exp
+    overflow 5: your code adds a small number to the sum of the densities, so far from
+      all modes, where every density is 0, every probability is 0 as well. Subtract the
+      row's largest exponent before you call exp
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
     given = x, keep, lose, means, sigma, weights
@@ -65,26 +90,20 @@ def _(x, abar, means, sigma, weights):
         return lose / variance * np.sum(prob * off, axis=1)
 
     prob, off, variance = posterior(*given)
-    nearest = np.zeros(prob.shape)
-    at = np.argmin(np.sum(off**2, axis=2), axis=1)
-    nearest[np.arange(len(x)), at] = 1
-    alone = np.broadcast_to((weights / weights.sum())[:, None], prob.shape)
     mean = np.sum(prob * (means + keep * sigma**2 / variance * off), axis=1)
-    power = -np.sum(off**2, axis=2) / (2 * variance)
-    plain, once = (weights * np.exp(power - most) for most in (0, power.max()))
-    plain = plain / plain.sum(axis=1, keepdims=True)
-    once = once / once.sum(axis=1, keepdims=True)
+    others = wrong_probabilities(off, variance, weights)
     return {
         "data-width-forgotten": noise(*posterior(*given, wide=False)),
         "data-width-forgotten 2": np.sum(prob * off, axis=1) / lose
         if lose
         else np.nan * x,
-        "nearest-mode": noise(nearest, off, variance),
-        "weights-only": noise(alone, off, variance),
         "clean": mean,
+        "data-width-forgotten 3": noise(
+            posterior(*given, wide=False)[0], off, variance
+        ),
+        "x-not-deviation": lose / variance * x,
         "score": -np.sum(prob * off, axis=1) / variance,
-        "overflow": noise(plain[..., None], off, variance),
-        "overflow 2": noise(once[..., None], off, variance),
+        **{name: noise(prob, off, variance) for name, prob in others.items()},
     }
 
 

@@ -43,6 +43,12 @@ def _(x0, noise, t):
       data
     to-go: your velocity is the distance that is left, x0 - x_t. The whole distance x0 -
       noise takes the time 1, so it is the velocity
+    distance-so-far: your velocity is the distance that is covered, x_t - noise. The
+      whole distance x0 - noise takes the time 1, so it is the velocity
+    divided-by-the-rest: your velocity is divided by 1 - t. Only the distance that is
+      left takes the time 1 - t; the whole distance x0 - noise takes the time 1
+    division-by-0: your code divides the distance that is covered by t, which is 0 / 0
+      at t = 0. Compute the velocity from data and noise, without a division
     """
     t = t[:, None]
     at = (1 - t) * noise + t * x0
@@ -52,6 +58,9 @@ def _(x0, noise, t):
         "time-reversed": (back, x0 - noise),
         "other-convention": (back, noise - x0),
         "to-go": (at, x0 - at),
+        "distance-so-far": (at, at - noise),
+        "divided-by-the-rest": (at, (x0 - noise) / (1 - t)),
+        "division-by-0": (at, (at - noise) / t),
     }
 
 

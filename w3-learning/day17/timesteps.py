@@ -34,8 +34,16 @@ def _(T, n):
       equally spaced numbers from T - 1 to 0
     whole-steps: your levels are T // n apart, so their number is not always n and 0 may
       be missing. Use n equally spaced numbers and round them
+    whole-steps 2: the distance of your levels is rounded down to a whole number, so the
+      last one is not always 0. Use n equally spaced numbers and round them
+    endpoint-missing: your levels are (T - 1) / n apart, so the last one is not 0. From
+      T - 1 to 0 there are n - 1 distances
     ascending: your levels are in ascending order. A sampler starts at the noisiest
       level, T - 1
+    one-step-at-0: your only level is 0 for n = 1. A sampler starts at the noisiest
+      level, T - 1, also with a single step
+    rounded-down: your levels are rounded down. Round them to the nearest whole number
+    rounded-up: your levels are rounded up. Round them to the nearest whole number
     not-rounded: your levels are not rounded. They are indices of the schedule
     """
     even = np.linspace(T - 1, 0, n)
@@ -43,6 +51,11 @@ def _(T, n):
         "leading": (np.arange(n) * (T // n))[::-1],
         "trailing": np.round(np.arange(T, 0, -T / n))[:n] - 1,
         "whole-steps": np.arange(T - 1, -1, -(T // n)),
+        "whole-steps 2": T - 1 - np.arange(n) * ((T - 1) // max(n - 1, 1)),
+        "endpoint-missing": np.rint(np.linspace(T - 1, 0, n, endpoint=False)),
+        "one-step-at-0": np.rint(even) if n > 1 else np.zeros(1),
+        "rounded-down": np.floor(even),
+        "rounded-up": np.ceil(even),
         "ascending": np.rint(even[::-1] if n > 1 else even),
         "not-rounded": even,
     }

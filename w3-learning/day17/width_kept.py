@@ -14,6 +14,7 @@ def _(rng):
         yield np.sort(rng.numbers(0.01, 0.99, k)), float(rng.numbers(0.05, 1.5))
     yield np.array([0.001, 0.2]), 0.3
     yield np.array([0.4, 0.7]), 1.0
+    yield rng.numbers(0.1, 0.9, 1), float(rng.numbers(0.05, 1.5))
 
 
 row.cases(
@@ -25,7 +26,7 @@ row.cases(
 row.at_least_0(abars="fractions", sigma="a standard deviation", answer="a fraction")
 
 
-@row.wrongs
+@row.wrongs(hidden={"pure-noise-first": "the lab's first level is nearly pure noise"})
 def _(abars, sigma):
     """width-forgotten: in your code, the vectors are (sqrt(abar), sqrt(1 - abar)).
       Their first component is the standard deviation of the signal, sigma sqrt(abar)
@@ -33,9 +34,23 @@ def _(abars, sigma):
       direction and the last. Each step loses the cosine of its own angle: multiply them
     last-step-forgotten: in your code, the step from the last level to abar = 1 is
       missing
+    last-step-forgotten 2: in your code, the step from the last level to abar = 1 is
+      missing if there are several levels
+    last-level-0: in your code, the last step leads to abar = 0, which is pure noise. It
+      leads to abar = 1, the data without noise
+    last-level-first: in your code, abar = 1 comes before the other levels. The steps
+      begin at the noisiest level, and the last one leads to abar = 1
+    sines: your factors are the sines of the angles. A step keeps the cosine of its
+      angle
+    pure-noise-first: your code adds a step from abar = 0 to the first level. The first
+      step starts at the first level
+    mean: your result is the mean of the cosines. Each step multiplies the width, so
+      multiply them
     sum: your cosines are added. Each step multiplies the width, so multiply them
     width: your result is the standard deviation that is left. Return it as a fraction
       of sigma
+    lengths-kept: your factors are the scalar products divided by the square of the
+      first vector's length. The cosine is the product divided by both lengths
     dots: your factors are the products of the vectors, not divided by their lengths.
       The cosine is the product divided by both lengths
     """
@@ -47,12 +62,21 @@ def _(abars, sigma):
         sizes = np.linalg.norm(u, axis=0)
         return dots / sizes[1:] / sizes[:-1], dots
 
+    u = np.stack([sigma * np.sqrt(levels), np.sqrt(1 - levels)])
+    sizes = np.linalg.norm(u, axis=0)
     right, dots = cosines(sigma * np.sqrt(levels), np.sqrt(1 - levels))
     ends = levels[[0, -1]]
     return {
         "width-forgotten": np.prod(cosines(np.sqrt(levels), np.sqrt(1 - levels))[0]),
         "first-and-last-only": cosines(sigma * np.sqrt(ends), np.sqrt(1 - ends))[0][0],
         "last-step-forgotten": np.prod(right[:-1]),
+        "last-step-forgotten 2": np.prod(right[: max(len(abars) - 1, 1)]),
+        "last-level-0": np.prod(right[:-1]) * np.sqrt(1 - abars[-1]) / sizes[-2],
+        "last-level-first": np.prod(right[:-1]) * u[0, 0] / sizes[0],
+        "sines": np.prod(np.sqrt(np.maximum(1 - right**2, 0))),
+        "pure-noise-first": np.prod(right) * np.sqrt(1 - abars[0]) / sizes[0],
+        "mean": np.mean(right),
+        "lengths-kept": np.prod(right) * sizes[-1] / sizes[0],
         "sum": np.sum(right),
         "width": sigma * np.prod(right),
         "dots": np.prod(dots),
