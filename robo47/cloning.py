@@ -148,8 +148,7 @@ def mlp(
     Raises:
         ValueError: shapes that do not match.
     """
-    x, net = _net(x, (W1, b1, W2, b2, W3, b3))
-    return _layers(x, net)[-1]
+    return layers(x, W1, b1, W2, b2, W3, b3)[-1]
 
 
 def mse(pred: ArrayLike, target: ArrayLike) -> tuple[float, Array]:
@@ -200,10 +199,10 @@ def mlp_gradient(
     Raises:
         ValueError: shapes that do not match.
     """
-    x, net = _net(_matrix(x, "x"), (W1, b1, W2, b2, W3, b3))
-    W2 = net[2]
-    W3 = net[4]
-    first, second, pred = _layers(x, net)
+    x = _matrix(x, "x")
+    first, second, pred = layers(x, W1, b1, W2, b2, W3, b3)
+    W2 = _numbers(W2)
+    W3 = _numbers(W3)
     d3 = mse(pred, target)[1]
     d2 = (d3 @ W3.T) * (1.0 - second**2)
     d1 = (d2 @ W2.T) * (1.0 - first**2)
@@ -298,6 +297,25 @@ def nearest_distance(known: ArrayLike, asked: ArrayLike) -> Array:
         )
     least = [np.min(np.sum((known - one) ** 2, axis=1)) for one in asked]
     return np.sqrt(np.array(least))
+
+
+def layers(x: ArrayLike, *arrays: ArrayLike) -> tuple[Array, Array, Array]:
+    """Return the outputs of the three layers of a network; the last are `mlp`'s.
+
+    Args:
+        x: inputs, (..., a).
+        arrays: W1, b1, W2, b2, W3, b3, as for `mlp`.
+
+    Returns:
+        (..., h), (..., g) and (..., m).
+
+    Raises:
+        ValueError: shapes that do not match.
+    """
+    x, (W1, b1, W2, b2, W3, b3) = _net(x, arrays)
+    first = np.tanh(x @ W1 + b1)
+    second = np.tanh(first @ W2 + b2)
+    return first, second, second @ W3 + b3
 
 
 def random_net(rng: np.random.Generator, a: int, h: int, m: int) -> list[Array]:
@@ -408,14 +426,6 @@ def complex_step(
             value = function(*given[:i], moved, *given[i + 1 :])
             found[i][at] = np.imag(value) / step
     return found
-
-
-def _layers(x: Array, net: Sequence[Array]) -> tuple[Array, Array, Array]:
-    """Return the outputs of the three layers."""
-    W1, b1, W2, b2, W3, b3 = net
-    first = np.tanh(x @ W1 + b1)
-    second = np.tanh(first @ W2 + b2)
-    return first, second, second @ W3 + b3
 
 
 def _net(x: ArrayLike, arrays: Sequence[ArrayLike]) -> tuple[Array, list[Array]]:

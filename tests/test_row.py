@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 
+from labkit.base.exchange import Exchange, Question
 from labkit.judge import Ask, Draw, HeldOut, Scalar
 from labkit.judge import argument_mistakes as kinds
+from labkit.judge.answers import Several
+from labkit.judge.ask import stacked
 from labkit.judge.row import Row, inside
 from labkit.lesson.day import find_day
 from robo47.errors import Robo47Error
@@ -154,3 +157,30 @@ def test_a_shape_of_drawn_numbers_may_be_one_tuple():
 )
 def test_the_place_of_a_mistake_is_one_phrase(where, says, told):
     assert inside(where, says).startswith(told)
+
+
+def test_a_tuple_of_arrays_is_one_argument_and_no_mistake_changes_it():
+    row = Row(Scalar(), truth=lambda pair: float(pair[0].sum() + len(pair[1])))
+    row.function = "summed"
+    first, second = np.array([1.0, 2.0]), np.zeros((3, 1))
+
+    @row.inputs
+    def _(rng):
+        yield ((first, second),)
+        yield ((rng.numbers(0, 1, 4), second),)
+
+    @row.wrongs
+    def _(pair):
+        """emptied: it is set to 0 first"""
+        pair[0][:] = 0.0
+        return {"emptied": 1.0 * len(pair[1])}
+
+    asked = row.ask.main
+    assert [isinstance(call[0], Several) for call in asked] == [True, True]
+    assert row.ask.drawn == 1  # the first is the same for each seed
+    columns = stacked([Exchange(Question("", "", call)) for call in asked])
+    assert row.ask.truth(*columns)[0] == 6.0
+    assert row.ask.mistakes()[0].redo(*columns).tolist() == [3.0, 3.0]
+    assert first.tolist() == [1.0, 2.0]
+    assert (np.shape(asked[0][0]), np.size(asked[0][0])) == ((), 5)
+    assert np.asarray(asked[0][0]).dtype == object

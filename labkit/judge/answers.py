@@ -4,7 +4,7 @@ Sets of answers are stacked, (n, ...); a function that returns several has its p
 """
 
 import contextlib
-from collections.abc import Callable, Sequence, Set
+from collections.abc import Callable, Iterable, Sequence, Set
 from dataclasses import dataclass
 from itertools import starmap
 from typing import Any
@@ -139,8 +139,42 @@ def rigid(M: Array) -> bool:
     return bool(flaw and np.isfinite(M).all() and flaw(M, RIGID) is None)
 
 
+class Several(tuple[Any, ...]):
+    """A tuple of arrays as one argument: a data set, say.
+
+    To NumPy it is one thing without a shape, as a robot is: nothing is done to its
+    numbers to find a mistake. The student's function gets a plain tuple.
+    """
+
+    shape = ()
+    ndim = 0
+
+    @property
+    def size(self) -> int:
+        """How many numbers it holds."""
+        return sum(map(np.size, self))
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+        """Return an array of one object."""
+        whole = np.empty(1, dtype=object)
+        whole[0] = self
+        return whole.reshape(())
+
+
+def grouped(call: Iterable[Any]) -> tuple[Any, ...]:
+    """Return the arguments of a call, each tuple of arrays as `Several`."""
+    return tuple(Several(one) if _of_arrays(one) else one for one in call)
+
+
+def _of_arrays(argument: Any) -> bool:
+    plain = type(argument) is tuple
+    return plain and any(isinstance(one, np.ndarray) for one in argument)
+
+
 def own(argument: Any) -> Any:
     """Return a copy of an array or a number; a model or a path is as it is."""
+    if isinstance(argument, Several):
+        return Several(map(own, argument))
     plain = isinstance(argument, np.ndarray | np.generic)
     return np.copy(argument)[()] if plain else argument
 
@@ -149,6 +183,8 @@ def content(argument: Any) -> Any:
     """Return what two arguments share that are the same, to look it up."""
     if isinstance(argument, np.ndarray):
         return argument.shape, argument.dtype, argument.tobytes()
+    if isinstance(argument, Several):
+        return tuple(map(content, argument))
     return repr(argument) if isinstance(argument, list) else argument
 
 

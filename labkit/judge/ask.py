@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, partial
-from itertools import chain
+from itertools import chain, starmap
 from pathlib import Path as File
 from typing import Any
 
@@ -17,7 +17,7 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Path, Question, Reply
 from labkit.judge import fits
-from labkit.judge.answers import InTurn, Parts, gaps, own, parts
+from labkit.judge.answers import InTurn, Parts, Several, content, gaps, own, parts
 from labkit.judge.draw import Draw, Edges
 from labkit.judge.guard import guarded
 from labkit.judge.kinds import Kind
@@ -307,7 +307,7 @@ class Ask:
         """How many inputs are drawn: from the first on that two draws do not share."""
         others = self.inputs(Draw(SEED + 1))
         pairs = zip(self.main, others, strict=False)
-        alike = [all(map(np.array_equal, *pair)) for pair in pairs]
+        alike = [all(starmap(_alike, zip(*pair, strict=True))) for pair in pairs]
         return len(alike) - [*alike, False].index(False)
 
     @cached_property
@@ -400,6 +400,13 @@ def of_complex(question: Question) -> bool:
     return any(map(np.iscomplexobj, arrays))
 
 
+def _alike(one: Any, other: Any) -> bool:
+    """Return whether two arguments are equal."""
+    if isinstance(one, Several):
+        return bool(content(one) == content(other))
+    return np.array_equal(one, other)
+
+
 def as_plain(arg: Any) -> Any:
     """Return an argument as a truth gets it: a Robot's model, a path's pairs."""
     if isinstance(arg, Robot):
@@ -409,8 +416,9 @@ def as_plain(arg: Any) -> Any:
 
 def _column(column: tuple[Any, ...], alone: bool) -> Any:
     plain = list(map(as_plain, column))
-    special = isinstance(column[0], Robot | Path)
-    if special and not alone and all(one == column[0] for one in column):
+    special = isinstance(column[0], Robot | Path | Several)
+    shared = special and not alone and not isinstance(column[0], Several)
+    if shared and all(one == column[0] for one in column):
         return plain[0]
     apart = special or len({np.shape(one) for one in plain}) > 1  # of several sizes
     whole = None if apart else np.array(column)

@@ -8,6 +8,7 @@ import numpy as np
 from labkit.base.exchange import Exchange, Question
 from labkit.judge.answers import (
     Parts,
+    Several,
     difference,
     gap,
     worst_part,
@@ -229,7 +230,9 @@ def _given(question: Question, names: Sequence[str]) -> tuple[str, ...]:
     """Return the call, and each argument that is too long for it."""
     found = [f"call: {typed(question, names, LONG)}"]
     for i, arg in enumerate(question.args):
-        if isinstance(arg, np.ndarray) and (arg.ndim > 1 or len(typed_one(arg)) > LONG):
+        several = isinstance(arg, Several)
+        array = isinstance(arg, np.ndarray)
+        if several or (array and (arg.ndim > 1 or len(typed_one(arg)) > LONG)):
             name = names[i] if len(names) >= len(question.args) else f"argument {i + 1}"
             found.append(f"{name} = {shown(arg)}")
     return tuple(found)

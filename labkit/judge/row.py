@@ -26,7 +26,7 @@ from functools import cached_property, partial, update_wrapper
 from types import MappingProxyType, ModuleType
 from typing import Any
 
-from labkit.judge.answers import AtOnce, InTurn, entry_of, once
+from labkit.judge.answers import AtOnce, InTurn, entry_of, grouped, once
 from labkit.judge.argument_mistakes import Change
 from labkit.judge.ask import Ask, HeldOut, Inputs
 from labkit.judge.draw import Draw
@@ -171,7 +171,8 @@ class Row:
         A wrong function is asked them after a check, and only where its mistake has no
         name.
         """
-        self.more["rare"] = (*self.more.get("rare", ()), draw)
+        calls = partial(_calls, draw)
+        self.more["rare"] = (*self.more.get("rare", ()), calls)
         return draw
 
     def wrong(
@@ -412,7 +413,7 @@ class Row:
             "that are very small, very large or exactly at a limit. The lab or a later "
             "task uses such inputs. Does a guard, a clamp or a tolerance in your code "
             "change these inputs?",
-            lambda rng: [tuple(call) for draw in self._spans for call in draw(rng)],
+            lambda rng: [call for draw in self._spans for call in _calls(draw, rng)],
             relative=True,
         )
 
@@ -425,7 +426,7 @@ class Row:
     def _inputs(self, rng: Draw) -> list[tuple[Any, ...]]:
         """Return what the file's generator yields; where it stops, say where."""
         try:
-            return [tuple(call) for call in self.more["inputs"](rng)]
+            return _calls(self.more["inputs"], rng)
         except Robo47Error:
             raise
         except Exception as error:
@@ -477,6 +478,11 @@ class Row:
                 setattr(lab, small, right)
 
         return code
+
+
+def _calls(draw: Inputs, rng: Draw) -> list[tuple[Any, ...]]:
+    """Return the calls of a generator of the file's."""
+    return [grouped(call) for call in draw(rng)]
 
 
 def row_of(day: Day, function: str) -> Row:

@@ -1,0 +1,89 @@
+"""18.3 `episode_weights(episode)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+row = Row(Vector((None,)))
+
+
+@row.inputs
+def _(rng):
+    yield (np.array([0, 0, 0, 1]),)
+    yield (np.array([3, 3]),)
+    yield (np.array([7, 2, 2, 7, 2]),)  # not in runs
+    yield (np.array([5, 5, 1, 1]),)
+    for n, episodes in ((6, 3), (9, 4), (12, 3), (7, 2), (10, 6)):
+        yield (rng.integers(0, episodes, n),)
+
+
+row.cases(
+    episodes_of_equal_length=lambda episode: len(set(np.bincount(episode)) - {0}) == 1,
+    episodes_of_different_lengths=lambda episode: (
+        len(set(np.bincount(episode)) - {0}) > 1
+    ),
+)
+
+
+@row.rare
+def _(rng):
+    k = int(rng.integers(1, 4))
+    yield (np.repeat(rng.permutation(9)[: int(rng.integers(1, 5))], k),)
+
+
+@row.wrongs
+def _(episode):
+    """one-over-length: your weights of each episode have the sum 1, so the mean of
+      all weights is not 1. Multiply by the number of rows and divide by the number
+      of episodes
+    sums-to-1: the sum of all your weights is 1. The mean should be 1, so multiply
+      the weights by the number of rows
+    length: your weights are proportional to the length of the episode. Divide by the
+      length, so that a long episode has small weights
+    root: your weights are proportional to 1 / sqrt(length). Use 1 / length, so that
+      all episodes have the same total weight
+    by-runs: your code begins a new episode at each change of the number. Rows with
+      the same number belong to one episode, even if other rows are between these
+      rows
+    equal: your weights are all 1, so a long episode has more influence than a short
+      one. Divide by the length of the episode
+    per-episode: your result has one weight per episode. Return one weight per row
+    """
+    _, of, length = np.unique(episode, return_inverse=True, return_counts=True)
+    n, E = len(episode), len(length)
+    runs = np.cumsum(np.append(0, np.diff(episode) != 0))
+    run_length = np.bincount(runs)
+    root = 1 / np.sqrt(length[of])
+    return {
+        "one-over-length": 1 / length[of],
+        "sums-to-1": 1 / (E * length[of]),
+        "length": length[of] / np.mean(length[of]),
+        "root": root / root.mean(),
+        "by-runs": n / (len(run_length) * run_length[runs]),
+        "equal": np.ones(n),
+        "per-episode": n / (E * length),
+    }
+
+
+@row.right  # A loop over the episodes.
+def _(episode):
+    weight = np.zeros(len(episode))
+    numbers = set(episode.tolist())
+    for one in numbers:
+        rows = episode == one
+        weight[rows] = len(episode) / len(numbers) / rows.sum()
+    return weight
+
+
+@row.right  # Each row compared with all.
+def _(episode):
+    weight = 1 / (episode[:, None] == episode).sum(axis=1)
+    return weight / weight.mean()
+
+
+@row.spans
+def _(rng):
+    yield (np.repeat([29, 0, 3], [1, 180, 60]),)
+
+
+row.at_least_0(episode="numbers of episodes", answer="weights")

@@ -1,0 +1,108 @@
+"""18.8 `holm(p)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Mask, Row
+
+row = Row(Mask((None,)))
+
+
+@row.inputs
+def _(rng):
+    yield (np.array([0.01, 0.04, 0.03]),)
+    yield (np.array([0.05]),)
+    yield (np.array([0.03, 0.001, 0.02, 0.04]),)
+    yield (np.array([0.026, 0.024]),)
+    yield (np.array([0.2, 0.01, 0.6]),)
+    yield (np.array([0.04, 0.045, 0.03, 0.012]),)  # the first fails, later ones do not
+    yield (np.array([0.01, 0.02, 0.04]),)
+    yield (np.array([0.009, 0.001, 0.3, 0.012, 0.02]),)
+    yield (np.array([0.0169, 0.5, 0.6]),)  # above 0.05 / 3
+    for n in (2, 3, 3, 4, 4, 5, 6, 6, 8):
+        yield (rng.numbers(0.001, 0.2, n) ** 1.5,)
+
+
+@row.spans
+def _(rng):
+    yield (np.array([1e-9, 1.0, 1e-30]),)
+
+
+@row.wrongs(hidden={"sidak": "the lab's p-values are not near these limits"})
+def _(p):
+    """uncorrected: your code compares each p-value with 0.05. With m comparisons
+      luck has m chances, so the limits should depend on m
+    bonferroni: your code compares each p-value with 0.05 / m (Bonferroni). In
+      Holm's method the limit of the next p-value is 0.05 / (m - 1), and so on
+    no-stop: your code continues after a p-value that is larger than its limit. Stop
+      there, because all larger p-values are not significant either
+    hochberg: your code starts with the largest p-value (Hochberg's method). Start
+      with the smallest p-value, and stop at the first that is larger than its limit
+    sorted: your result has the order of the sorted p-values. Return the result in
+      the order of the argument
+    benjamini-hochberg: your limits are 0.05 (i + 1) / m (Benjamini and Hochberg).
+      The limits of Holm's method are 0.05 / (m - i)
+    limits-reversed: your limits are 0.05 / (i + 1), so the smallest p-value has the
+      limit 0.05. Compare the smallest p-value with 0.05 / m
+    sidak: your limits are 1 - 0.95^(1 / (m - i)) (Sidak), which requires
+      independent tests. The limits of Holm's method are 0.05 / (m - i)
+    indices: your result has the indices of the significant differences. Return a
+      mask
+    negated: your mask is True for the differences that are not significant. Return
+      True for the significant differences
+    """
+    m = len(p)
+    order = np.argsort(p, kind="stable")
+    limits = 0.05 / np.arange(m, 0, -1)
+    passes = p[order] <= limits
+    stop = np.logical_and.accumulate(passes)
+    last = np.max(np.flatnonzero(passes), initial=-1)
+    slow = np.max(
+        np.flatnonzero(p[order] <= 0.05 * np.arange(1, m + 1) / m), initial=-1
+    )
+
+    def back(some):
+        found = np.zeros(m, dtype=bool)
+        found[order] = some
+        return found
+
+    def falls(limits):
+        return np.logical_and.accumulate(p[order] <= limits)
+
+    right = back(stop)
+    return {
+        "uncorrected": p <= 0.05,
+        "bonferroni": p <= 0.05 / m,
+        "no-stop": back(passes),
+        "hochberg": back(np.arange(m) <= last),
+        "sorted": stop,
+        "benjamini-hochberg": back(np.arange(m) <= slow),
+        "limits-reversed": back(falls(0.05 / np.arange(1, m + 1))),
+        "sidak": back(falls(1 - 0.95 ** (1 / np.arange(m, 0, -1)))),
+        "indices": np.flatnonzero(right),
+        "negated": ~right,
+    }
+
+
+@row.right  # By adjusted p-values.
+def _(p):
+    order = np.argsort(p)
+    adjusted = np.maximum.accumulate(p[order] * np.arange(len(p), 0, -1))
+    found = np.empty(len(p), dtype=bool)
+    found[order] = adjusted <= 0.05
+    return found
+
+
+@row.right  # A loop that stops.
+def _(p):
+    found = np.zeros(len(p), dtype=bool)
+    left = len(p)  # comparisons that are left
+    for i in np.argsort(p):
+        if p[i] > 0.05 / left:
+            break
+        found[i] = True
+        left -= 1
+    return found
+
+
+row.at_least_0(p="probabilities", answer="True or False")
+row.same("return (found).astype(np.float32)", "True and False stay what they are")

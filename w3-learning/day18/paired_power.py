@@ -1,0 +1,176 @@
+"""18.6 `paired_power(win, lose, n, level)`: its questions and its mistakes."""
+
+from math import comb, erfc, sqrt
+
+import numpy as np
+
+from labkit.judge import Row, Scalar
+
+from .gap_by_luck import pmf
+
+row = Row(Scalar())
+
+
+@row.inputs
+def _(rng):
+    yield 0.5, 0.25, 6, 0.05
+    yield 0.5, 0.5, 5, 0.0625  # p meets the level
+    yield 0.0, 0.0, 4, 0.05
+    yield 0.6, 0.0, 7, 0.05
+    yield 0.0, 0.4, 8, 0.1
+    yield 0.3, 0.2, 9, 0.5
+    for _ in range(5):
+        win, lose = rng.numbers(0.1, 0.5, 2)
+        level = float(rng.choice([0.05, 0.1, 0.2]))
+        yield float(win), float(lose), int(rng.integers(5, 12)), level
+
+
+row.cases(
+    policies_that_differ_on_every_start=lambda win, lose, n, level: win + lose == 1,
+    policies_that_agree_on_some_starts=lambda win, lose, n, level: win + lose < 1,
+)
+
+
+@row.rare
+def _(rng):
+    win = float(rng.numbers(0.1, 0.9))
+    yield win, 1 - win, int(rng.integers(5, 12)), 0.2
+
+
+def p_values(d):
+    """Return the p-values of the sign test for 0 to d wins of d."""
+    few = np.cumsum([comb(d, k) for k in range(d + 1)])
+    return [min(1.0, 2 * int(few[min(k, d - k)]) / 2**d) for k in range(d + 1)]
+
+
+def power(win, lose, n, level, p_of=p_values, reported=lambda k, d: True):
+    """Return the power with another p-value, or where only some wins are reported."""
+    differ = win + lose
+    share = win / differ if differ else 0.0
+    found = 0.0
+    for d, chance in enumerate(pmf(n, min(differ, 1.0))):
+        for k, (p, part) in enumerate(zip(p_of(d), pmf(d, share), strict=True)):
+            found += chance * part * (p <= level and reported(k, d))
+    return found
+
+
+def approximate(d):
+    """Return the p-values by the normal approximation."""
+    return [erfc(abs(2 * k - d) / sqrt(2 * d)) if d else 1.0 for k in range(d + 1)]
+
+
+def one_tail(d):
+    """Return the p-values of one side, for 0 to d wins."""
+    return [sum(comb(d, i) for i in range(k, d + 1)) / 2**d for k in range(d + 1)]
+
+
+@row.wrongs
+def _(win, lose, n, level):
+    """all-pairs-differ: your code lets the policies differ on all n starts. The
+      number of starts that differ is random, so sum over this number
+    expected-number: your code uses the expected number of starts that differ,
+      rounded. This number is random, so sum over all possible numbers
+    first-only: your function includes a reported difference only if the first
+      policy has more wins. Include both directions
+    one-sided: your code uses a one-sided p-value. Use both tails, as `sign_test`
+      does
+    independent: your code draws the numbers of wins and of losses independently. A
+      start cannot be a win and a loss, so draw the starts that differ first
+    win-as-share: your code draws the wins among d starts with the probability win.
+      On a start that differs, the probability is win / (win + lose)
+    fair-share: your code draws the wins among d starts with the probability 1/2, as
+      if both policies were equally good. Use win / (win + lose)
+    normal: your code uses a normal approximation of the p-value. Use the exact
+      p-value of `sign_test`
+    """
+    differ = win + lose
+    share = win / differ if differ else 0.0
+    whole = round(n * differ)
+
+    def given(d):
+        found = zip(p_values(d), pmf(d, share), strict=True)
+        return sum(part for p, part in found if p <= level)
+
+    def independent():
+        one, two = pmf(n, win), pmf(n, lose)
+        return sum(
+            one[k] * two[j] * (p_values(k + j)[k] <= level)
+            for k in range(n + 1)
+            for j in range(n + 1)
+        )
+
+    def with_share(x):
+        chances = pmf(n, min(differ, 1.0))
+        seen = ((c, d, p_values(d), pmf(d, x)) for d, c in enumerate(chances))
+        return sum(c * sum(q[k] for k in range(d + 1) if p[k] <= level)
+                   for c, d, p, q in seen)  # fmt: skip
+
+    return {
+        "all-pairs-differ": given(n),
+        "expected-number": given(whole),
+        "first-only": power(win, lose, n, level, reported=lambda k, d: 2 * k > d),
+        "one-sided": power(win, lose, n, level, one_tail),
+        "independent": independent(),
+        "win-as-share": with_share(win),
+        "fair-share": with_share(0.5),
+        "normal": power(win, lose, n, level, approximate),
+    }
+
+
+@row.right  # A double sum over wins and losses.
+def _(win, lose, n, level):
+    found = 0.0
+    for k in range(n + 1):
+        for j in range(n + 1 - k):
+            tail = sum(comb(k + j, i) for i in range(min(k, j) + 1))
+            if min(1, 2 * tail / 2 ** (k + j)) <= level:
+                ways = comb(n, k) * comb(n - k, j)
+                found += (
+                    ways * win**k * lose**j * max(1 - win - lose, 0.0) ** (n - k - j)
+                )
+    return found
+
+
+@row.right  # With the sign test of starts that are written down.
+def _(win, lose, n, level):
+    differ = win + lose
+    if differ == 0:
+        return 0.0
+
+    def p_of(k, d):
+        first = np.arange(d) < k
+        few = min(int(first.sum()), int((~first).sum()))
+        return min(1.0, 2 * sum(comb(d, i) for i in range(few + 1)) / 2**d)
+
+    total = 0.0
+    for d in range(n + 1):
+        of_d = comb(n, d) * differ**d * max(1 - differ, 0.0) ** (n - d)
+        for k in range(d + 1):
+            of_k = comb(d, k) * (win / differ) ** k * (lose / differ) ** (d - k)
+            total += of_d * of_k * (p_of(k, d) <= level)
+    return total
+
+
+@row.spans
+def _(rng):
+    yield 0.22, 0.06, 100, 0.05
+    yield 6e-4, 2e-4, 20, 0.5  # a guard of 0.001 would make it 0
+
+
+row.at_least_0(
+    win="a probability",
+    lose="a probability",
+    n="a number",
+    level="a probability",
+    answer="a probability",
+)
+row.same(
+    "first = win / differ if differ > 0 else 0.0 => "
+    "first = win / differ if differ > 0 else 1",
+    "no start differs then",
+)
+row.same(
+    "p = np.minimum(1, 2 * few[np.minimum(k, d - k)]) => "
+    "p = np.minimum(2, 2 * few[np.minimum(k, d - k)])",
+    "a level is below 1",
+)

@@ -1,0 +1,149 @@
+"""18.4 `sign_test(first, second)`: its questions and its mistakes."""
+
+from math import comb, erfc, sqrt
+
+import numpy as np
+
+from labkit.judge import Row, Scalar
+
+row = Row(Scalar())
+
+
+def starts(rng, win, lose, both, none):
+    """Return two policies' successes: so many starts of each kind, in any order."""
+    kinds = rng.permutation(np.repeat([0, 1, 2, 3], [win, lose, both, none]))
+    return (kinds == 0) | (kinds == 2), (kinds == 1) | (kinds == 2)
+
+
+@row.inputs
+def _(rng):
+    for win, lose, both, none in (
+        (6, 1, 0, 0),
+        (0, 5, 1, 1),
+        (0, 0, 2, 1),  # nobody differs
+        (2, 2, 1, 0),  # an even split
+        (3, 2, 0, 0),
+        (0, 1, 2, 0),
+        (7, 0, 0, 0),
+        (0, 0, 0, 1),
+    ):
+        yield starts(rng, win, lose, both, none)
+    for _ in range(8):
+        yield starts(rng, *rng.integers(0, 7, 4))
+
+
+def differ(first, second):
+    """Return the number of starts on which the policies differ."""
+    return int(np.sum(first != second))
+
+
+row.cases(
+    {
+        "policies that differ on every start": lambda a, b: differ(a, b) == len(a),
+        "policies that agree on some starts": lambda a, b: differ(a, b) < len(a),
+    }
+)
+row.cases(
+    {
+        "pairs in which the first policy wins more often": lambda a, b: (
+            a.sum() > b.sum()
+        ),
+        "pairs in which the second policy wins more often": lambda a, b: (
+            a.sum() < b.sum()
+        ),
+        "pairs with as many wins as losses": lambda a, b: a.sum() == b.sum(),
+    }
+)
+
+
+@row.rare
+def _(rng):
+    yield starts(rng, *rng.integers(1, 7, 2), 0, 0)
+    k = int(rng.integers(1, 6))
+    yield starts(rng, k, k, *rng.integers(0, 4, 2))
+
+
+def upto(k, d):
+    """Return the probability of at most k heads of d coins."""
+    return sum(comb(d, i) for i in range(k + 1)) / 2**d
+
+
+@row.wrongs
+def _(first, second):
+    """strict: your function adds only the splits that are more uneven than the
+      observed split. Include the observed split, which is at least as uneven
+    one-sided: your test is one-sided. A split in favour of the other policy is as
+      uneven, so add both tails
+    first-better: your function computes the probability that the first policy has
+      at least so many wins. The test is two-sided, so add the other tail
+    not-capped: your p-value is above 1 for an even split, because both tails
+      contain this split. Return at most 1
+    all-starts: your binomial distribution has all n starts. Omit the starts on
+      which both policies succeed or both fail
+    agreement: your function treats each start on which both policies succeed or
+      both fail as half a win. Omit these starts
+    one-split: your p-value is twice the probability of the observed split alone.
+      Include all splits that are more uneven
+    mid-p: your p-value contains only half of the probability of the observed split
+      (the mid-p-value). Include all of this probability
+    all-successes: your code compares the numbers of all successes of both policies.
+      Omit the starts on which both policies succeed
+    chi-squared: your function uses the chi-squared approximation of McNemar's test.
+      Sum the binomial probabilities, because the approximation is poor for few
+      starts
+    continuity: your function uses the chi-squared approximation of McNemar's test
+      with a continuity correction. Sum the binomial probabilities
+    unpaired: your function compares the two success rates as if the policies had
+      different starts. Use the starts on which the policies differ
+    """
+    win, lose = int(np.sum(first & ~second)), int(np.sum(second & ~first))
+    d, n, k = win + lose, len(first), min(win, lose)
+    ties = (n - d) // 2
+    both = int(np.sum(first & second))
+    chi = abs(win - lose) / sqrt(d) if d else 0.0
+    corrected = max(abs(win - lose) - 1, 0) / sqrt(d) if d else 0.0
+    a, b = np.mean(first), np.mean(second)
+    spread = sqrt((a + b) / 2 * (1 - (a + b) / 2) * 2 / n)
+    z = abs(a - b) / spread if spread else 0.0
+    return {
+        "strict": min(1.0, 2 * upto(k - 1, d)),
+        "one-sided": upto(k, d),
+        "first-better": upto(lose, d),
+        "not-capped": 2 * upto(k, d),
+        "all-starts": min(1.0, 2 * upto(k, n)),
+        "agreement": min(1.0, 2 * upto(k + ties, n)),
+        "one-split": min(1.0, 2 * comb(d, k) / 2**d),
+        "mid-p": min(1.0, 2 * upto(k - 1, d) + comb(d, k) / 2**d),
+        "all-successes": min(1.0, 2 * upto(k + both, d + 2 * both)),
+        "chi-squared": erfc(chi / sqrt(2)),
+        "continuity": erfc(corrected / sqrt(2)),
+        "unpaired": erfc(z / sqrt(2)),
+    }
+
+
+@row.right  # The sum over all splits that are at least as uneven.
+def _(first, second):
+    win = int(np.sum(first > second))
+    lose = int(np.sum(first < second))
+    d = win + lose  # starts that differ
+    some = [k for k in range(d + 1) if abs(2 * k - d) >= abs(win - lose)]
+    return sum(comb(d, k) for k in some) / 2**d
+
+
+@row.right  # With one tail, and an even split apart.
+def _(first, second):
+    differ = first != second
+    d = int(differ.sum())
+    wins = int(first[differ].sum())
+    if 2 * wins == d:
+        return 1.0
+    more = max(wins, d - wins)
+    return sum(comb(d, k) for k in range(more, d + 1)) / 2 ** (d - 1)
+
+
+@row.spans
+def _(rng):
+    yield starts(rng, 48, 10, 129, 13)
+
+
+row.at_least_0(first="True or False", second="True or False", answer="a probability")
