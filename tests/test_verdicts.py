@@ -2,6 +2,9 @@
 
 import pytest
 
+from labkit.base.exchange import Reply
+from labkit.check.tasks import _changed_arguments
+from labkit.judge.mistake import Verdict
 from labkit.lesson.day import find_day
 from labkit.sandbox import sandbox
 
@@ -55,6 +58,13 @@ def test_an_argument_that_is_changed_in_place_is_named(
     assert (verdict.status, verdict.mistake) == ("wrong", "argument-changed")
     assert f"changed its argument {name}" in verdict.message
     assert f"{name} = {name}.copy()" in verdict.message
+
+
+def test_a_tuple_that_is_changed_is_to_be_copied_array_by_array():
+    came = [Reply(changed=("second",))]
+    verdict = _changed_arguments("aggregate", came, Verdict("passed"), {"second"})
+    assert verdict.mistake == "argument-changed"
+    assert "second = tuple(one.copy() for one in second)" in verdict.message
 
 
 def test_a_wrong_answer_keeps_its_name_where_an_argument_is_changed_too(check):

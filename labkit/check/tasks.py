@@ -4,7 +4,7 @@ import contextlib
 import re
 import secrets
 import tokenize
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
@@ -13,7 +13,7 @@ from pathlib import Path
 from labkit.base.deadline import Deadline
 from labkit.base.exchange import Exchange, LoadError, Reply
 from labkit.check.slow import too_slow
-from labkit.judge.answers import as_clause, capitalised
+from labkit.judge.answers import Several, as_clause, capitalised
 from labkit.judge.ask import Asked, asked_of, replies
 from labkit.judge.cases import in_cases
 from labkit.judge.guard import attempt, noting, quiet
@@ -283,7 +283,10 @@ def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
             return refusal(refused[0], None)
         if says := twice(source, function):
             verdict = replace(verdict, message=f"{verdict.message} {says}")
-    return _changed_arguments(function, came, verdict)
+    names = arguments(source, function)
+    pairs = zip(names, asked.main[0].question.args, strict=False)
+    tuples = {name for name, arg in pairs if isinstance(arg, Several)}
+    return _changed_arguments(function, came, verdict, tuples)
 
 
 def _unanswered(
@@ -335,19 +338,32 @@ def _not_utf8(script: Path) -> str:
 
 
 def _changed_arguments(
-    function: str, came: Sequence[Reply], verdict: Verdict
+    function: str,
+    came: Sequence[Reply],
+    verdict: Verdict,
+    tuples: Set[str] = frozenset(),
 ) -> Verdict:
-    """Return the verdict with the arguments that the function left changed."""
+    """Return the verdict with the arguments that the function left changed.
+
+    Args:
+        function: its name.
+        came: its replies.
+        verdict: what is said of its answers.
+        tuples: the names of the arguments that are tuples of arrays.
+    """
     changed = [name for reply in came for name in reply.changed]
     if not changed or verdict.status == "todo":
         return verdict
     name = changed[0]
+    copied = f"{name} = {name}.copy()"
+    if name in tuples:
+        copied = f"{name} = tuple(one.copy() for one in {name})"
     if verdict.mistake == "shares-its-argument":  # a copy at the end would not help
         says = f"{function} works in its argument {name} itself and returns it, so its "
-        says += f"caller's numbers change. Begin with a copy: {name} = {name}.copy()"
+        says += f"caller's numbers change. Begin with a copy: {copied}"
         return replace(verdict, message=f"{says}.")
     says = f"{function} changed its argument {name}, which its caller still needs"
-    says += f"; work on a copy: {name} = {name}.copy()" if name.isidentifier() else ""
+    says += f"; work on a copy: {copied}" if name.isidentifier() else ""
     if verdict.status != "passed":
         return replace(verdict, message=f"{verdict.message} Besides, {says}.")
     says = f"The numbers are right, but {says}."

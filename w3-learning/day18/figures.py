@@ -17,7 +17,7 @@ from labkit.figures import chart
 from labkit.figures.chart import BLUE, GREY, INK, ORANGE, RED
 from robo47.policy import success_rate
 
-SEEDS = range(1, 4)
+SEEDS = range(1, 3)
 STARTS = 100  # of each test
 KINDS = {  # by name: actions that the policy drives, colour and mark
     "fresh demonstrations": (0, BLUE, "o"),
@@ -54,7 +54,7 @@ def home(seed: int, actions: int) -> np.ndarray:
 @chart.picture(height=5.2)
 def data(figure: Figure) -> None:
     """Draw the successes for each seed, and the power of the tests."""
-    seeds, power = figure.subplots(1, 2, width_ratios=(1.1, 1.0))
+    seeds, power = figure.subplots(1, 2, width_ratios=(1.0, 1.0))
     _seeds(seeds)
     _power(power)
 
@@ -64,7 +64,7 @@ def _seeds(axes: Axes) -> None:
     for j, (name, (actions, colour, mark)) in enumerate(KINDS.items()):
         rates = np.array([success_rate(home(seed, actions)) for seed in SEEDS])
         rate, low, high = 100 * rates.T
-        at = np.array(SEEDS) + 0.18 * (j - 1)
+        at = np.array(SEEDS) + 0.14 * (j - 1)
         bars = np.array([rate - low, high - rate])
         axes.errorbar(at, rate, bars, fmt=mark, color=colour, label=name, capsize=2)
     axes.set(

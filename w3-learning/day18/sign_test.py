@@ -93,6 +93,8 @@ def _(first, second):
       starts
     continuity: your function uses the chi-squared approximation of McNemar's test
       with a continuity correction. Sum the binomial probabilities
+    paired-z: your function divides the mean difference by its standard error and
+      uses the normal distribution. Sum the binomial probabilities, which are exact
     unpaired: your function compares the two success rates as if the policies had
       different starts. Use the starts on which the policies differ
     """
@@ -103,6 +105,8 @@ def _(first, second):
     chi = abs(win - lose) / sqrt(d) if d else 0.0
     corrected = max(abs(win - lose) - 1, 0) / sqrt(d) if d else 0.0
     a, b = np.mean(first), np.mean(second)
+    error = np.std(first.astype(float) - second) / sqrt(n)
+    ratio = abs(a - b) / error if error else 100.0 * abs(a - b)
     spread = sqrt((a + b) / 2 * (1 - (a + b) / 2) * 2 / n)
     z = abs(a - b) / spread if spread else 0.0
     return {
@@ -117,6 +121,7 @@ def _(first, second):
         "all-successes": min(1.0, 2 * upto(k + both, d + 2 * both)),
         "chi-squared": erfc(chi / sqrt(2)),
         "continuity": erfc(corrected / sqrt(2)),
+        "paired-z": erfc(ratio / sqrt(2)),
         "unpaired": erfc(z / sqrt(2)),
     }
 
