@@ -5,9 +5,9 @@ import numpy as np
 from labkit.judge import Matrix, Row, Vector
 
 row = Row((
-    Matrix((None, None), called="the observations"),
-    Matrix((None, None), called="the actions"),
-    Vector((None,), called="the episodes"),
+    Matrix((None, None), called="the array of observations"),
+    Matrix((None, None), called="the array of actions"),
+    Vector((None,), called="the vector of episode numbers"),
 ))  # fmt: skip
 
 
@@ -57,6 +57,14 @@ def _(first, second):
       rows after the rows of the first data set
     renumbered: your code numbers all episodes again from 0. Keep the numbers of the
       first data set
+    without-gaps: your code numbers the episodes of the second data set without gaps.
+      Add the same shift to all numbers
+    without-gaps 2: your code numbers the episodes of the second data set without
+      gaps, in the order in which they begin. Add the same shift to all numbers
+    sorted-rows: your code sorts all rows by the number of the episode. Keep the order
+      of the rows
+    sorted-numbers: your code sorts the numbers of the episodes, but not the rows.
+      Keep the order of the numbers
     """
     of, of_2 = first[2], second[2]
     seen, done = (np.vstack([first[i], second[i]]) for i in (0, 1))
@@ -70,6 +78,9 @@ def _(first, second):
     }
     new = of_2 + of.max() + 1
     every = np.append(of, new)
+    order = np.argsort(every, kind="stable")
+    _, begins, which = np.unique(of_2, return_index=True, return_inverse=True)
+    places = np.argsort(np.argsort(begins))[which]
     return {
         **{slug: (seen, done, np.append(of, of_2 + s)) for slug, s in shifts.items()},
         "first-shifted": (seen, done, np.append(of + of_2.max() + 1, of_2)),
@@ -81,6 +92,10 @@ def _(first, second):
             np.append(new, of),
         ),
         "renumbered": (seen, done, np.unique(every, return_inverse=True)[1]),
+        "without-gaps": (seen, done, np.append(of, of.max() + 1 + which)),
+        "without-gaps 2": (seen, done, np.append(of, of.max() + 1 + places)),
+        "sorted-rows": (seen[order], done[order], every[order]),
+        "sorted-numbers": (seen, done, every[order]),
     }
 
 

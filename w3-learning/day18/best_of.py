@@ -42,6 +42,20 @@ def _(p, n, k):
       all n starts. Return the expected largest number of successes, divided by n
     worst: your result is the expected rate of the worst policy. The best policy has
       at most s successes if all k policies have at most s
+    one-fewer: your result is the expected rate of the best of k - 1 policies. All k
+      policies have at most s successes with the probability F(s)^k
+    times-k: your code multiplies F by k. All k policies have at most s successes
+      with the probability F^k, because they are independent
+    times-k 2: your code multiplies F by k and limits the product to 1. All k policies
+      have at most s successes with the probability F^k, because they are independent
+    density: your code uses k F^(k - 1) f, the density of the largest of k continuous
+      variables. For whole numbers the probability is F(s)^k - F(s - 1)^k
+    possible-numbers: your code divides by n + 1, the number of possible results.
+      Divide by the number of starts, n
+    median: your result is the median of the largest number, as a rate. Return the
+      expected value
+    normal: your function uses the normal approximation p + sqrt(2 ln k p (1 - p) / n).
+      Sum the binomial probabilities
     """
     cdf = np.cumsum(pmf(n, p))
     below = np.minimum(cdf[:n], 1.0)
@@ -50,6 +64,13 @@ def _(p, n, k):
         "any-success": 1 - (1 - p) ** k,
         "all-succeed": 1 - (1 - p**n) ** k,
         "worst": np.sum((1 - below) ** k) / n,
+        "one-fewer": np.sum(1 - below ** (k - 1)) / n,
+        "times-k": np.sum(1 - k * below) / n,
+        "times-k 2": np.sum(1 - np.minimum(1.0, k * below)) / n,
+        "density": np.arange(n + 1) @ (k * cdf ** (k - 1) * pmf(n, p)) / n,
+        "possible-numbers": np.sum(1 - below**k) / (n + 1),
+        "median": np.sum(below**k < 0.5) / n,
+        "normal": p + np.sqrt(2 * np.log(k) * p * (1 - p) / n),
     }
 
 

@@ -48,12 +48,20 @@ def _(episode):
     equal: your weights are all 1, so a long episode has more influence than a short
       one. Divide by the length of the episode
     per-episode: your result has one weight per episode. Return one weight per row
+    largest-number: your code uses the largest number plus 1 as the number of
+      episodes. Count the different numbers, because some numbers can be missing
+    in-order-of-numbers: your weights have the order of the episode numbers. Give
+      each row the weight of its own episode, because the rows can have any order
+    mean-over-episodes: the mean of your weights is 1 over the episodes. It should be
+      1 over the rows, so multiply by the number of rows and divide by the number of
+      episodes
     """
     _, of, length = np.unique(episode, return_inverse=True, return_counts=True)
     n, E = len(episode), len(length)
     runs = np.cumsum(np.append(0, np.diff(episode) != 0))
     run_length = np.bincount(runs)
     root = 1 / np.sqrt(length[of])
+    once = n / (E * length)
     return {
         "one-over-length": 1 / length[of],
         "sums-to-1": 1 / (E * length[of]),
@@ -61,13 +69,16 @@ def _(episode):
         "root": root / root.mean(),
         "by-runs": n / (len(run_length) * run_length[runs]),
         "equal": np.ones(n),
-        "per-episode": n / (E * length),
+        "per-episode": once,
+        "largest-number": n / ((episode.max() + 1) * length[of]),
+        "in-order-of-numbers": np.repeat(once, length),
+        "mean-over-episodes": (once / once.mean())[of],
     }
 
 
 @row.right  # A loop over the episodes.
 def _(episode):
-    weight = np.zeros(len(episode))
+    weight = np.zeros_like(episode, dtype=float)
     numbers = set(episode.tolist())
     for one in numbers:
         rows = episode == one

@@ -38,7 +38,7 @@ def _(rng):
     yield float(rng.numbers(0.1, 0.9)), int(rng.integers(3, 12)), 0
 
 
-@row.wrongs
+@row.wrongs(hidden={"one-direction-doubled": "the lab has no gap of 0"})
 def _(p, n, gap):
     """rates-as-floats: your code compares a difference of rates with gap / n.
       Compare whole numbers of starts, because the rounding of the rates excludes
@@ -51,6 +51,12 @@ def _(p, n, gap):
       probabilities, because the approximation is poor for few starts
     half-a-start: your function uses a normal approximation with a continuity
       correction. Sum the binomial probabilities
+    half-a-start 2: your function uses a normal approximation with a continuity
+      correction, unless the gap is 0. Sum the binomial probabilities
+    one-direction-doubled: your function doubles the sum over one direction. For the
+      gap 0 this adds each pair of equal numbers twice
+    sum-of-both: your code uses the distribution of the sum of the two numbers. Use
+      the distribution of their difference
     exactly: your function adds only the pairs with exactly this gap. Include the
       pairs with a larger difference
     """
@@ -60,12 +66,16 @@ def _(p, n, gap):
     both = np.outer(one, one)
     rates = k[:, None] / n - k / n
     width = sqrt(2 * n * p * (1 - p))
+    half = erfc((gap - 0.5) / width / sqrt(2)) if width else 0.0
     return {
         "rates-as-floats": np.sum(both[np.abs(rates) >= gap / n]),
         "one-direction": np.sum(both[apart >= gap]),
         "one-set": np.sum(one[np.abs(k - n * p) >= gap]),
         "normal": erfc(gap / width / sqrt(2)) if width else float(gap <= 0),
         "half-a-start": erfc((gap - 0.5) / width / sqrt(2)) if width else 0.5,
+        "half-a-start 2": half if gap else 1.0,
+        "one-direction-doubled": 2 * np.sum(both[apart >= gap]),
+        "sum-of-both": np.sum(both[np.abs(k[:, None] + k - n) >= gap]),
         "exactly": np.sum(both[np.abs(apart) == gap]),
     }
 

@@ -27,7 +27,12 @@ def _(rng):
     yield (np.array([1e-9, 1.0, 1e-30]),)
 
 
-@row.wrongs(hidden={"sidak": "the lab's p-values are not near these limits"})
+@row.wrongs(
+    hidden={
+        "sidak": "the lab's p-values are not near these limits",
+        "not-equal": "no p-value of the lab is equal to its limit",
+    }
+)
 def _(p):
     """uncorrected: your code compares each p-value with 0.05. With m comparisons
       luck has m chances, so the limits should depend on m
@@ -41,6 +46,20 @@ def _(p):
       the order of the argument
     benjamini-hochberg: your limits are 0.05 (i + 1) / m (Benjamini and Hochberg).
       The limits of Holm's method are 0.05 / (m - i)
+    not-equal: your code requires a p-value below its limit. A p-value that is equal
+      to its limit is significant
+    one-later: your limits begin with 0.05 / (m - 1). Compare the smallest p-value with
+      0.05 / m
+    unsorted: your code compares the p-values in the order of the argument. Start with
+      the smallest p-value
+    first-larger: your result includes the first p-value that is larger than its
+      limit. This p-value is not significant
+    wrong-positions: your code does not write the sorted mask back to the positions
+      of the p-values. The entry of the smallest p-value belongs to the position that
+      this p-value has in the argument
+    wrong-positions 2: your code does not write the sorted mask back to the positions
+      of the p-values. The entry of the smallest p-value belongs to the position that
+      this p-value has in the argument
     limits-reversed: your limits are 0.05 / (i + 1), so the smallest p-value has the
       limit 0.05. Compare the smallest p-value with 0.05 / m
     sidak: your limits are 1 - 0.95^(1 / (m - i)) (Sidak), which requires
@@ -76,6 +95,12 @@ def _(p):
         "hochberg": back(np.arange(m) <= last),
         "sorted": stop,
         "benjamini-hochberg": back(np.arange(m) <= slow),
+        "not-equal": back(np.logical_and.accumulate(p[order] < limits)),
+        "one-later": back(falls(np.append(limits[1:], 0.05))),
+        "unsorted": np.logical_and.accumulate(p <= limits),
+        "first-larger": back(np.append(True, stop[:-1])),
+        "wrong-positions": stop[order],
+        "wrong-positions 2": stop[np.argsort(p)],  # equal p-values in another order
         "limits-reversed": back(falls(0.05 / np.arange(1, m + 1))),
         "sidak": back(falls(1 - 0.95 ** (1 / np.arange(m, 0, -1)))),
         "indices": np.flatnonzero(right),

@@ -1,6 +1,7 @@
 """18.6 `paired_power(win, lose, n, level)`: its questions and its mistakes."""
 
 from math import comb, erfc, sqrt
+from statistics import NormalDist
 
 import numpy as np
 
@@ -64,6 +65,28 @@ def one_tail(d):
     return [sum(comb(d, i) for i in range(k, d + 1)) / 2**d for k in range(d + 1)]
 
 
+def normal_power(win, lose, n, level):
+    """Return the power by the normal approximation of McNemar's test."""
+    differ, gap = win + lose, abs(win - lose)
+    if differ == 0:
+        return 0.0
+    rest = differ - gap**2  # the variance of one start's difference
+    z = NormalDist().inv_cdf(1 - level / 2)
+    over = gap * sqrt(n) - z * sqrt(differ)
+    return NormalDist().cdf(over / sqrt(rest)) if rest > 0 else float(over > 0)
+
+
+def chosen_from_all(win, lose, n, level):
+    """Return the sum over wins and losses, each of them chosen from all n starts."""
+    tie = max(1 - win - lose, 0.0)
+    return sum(
+        comb(n, k) * comb(n, j) * win**k * lose**j * tie ** (n - k - j)
+        for k in range(n + 1)
+        for j in range(n + 1 - k)
+        if p_values(k + j)[k] <= level
+    )
+
+
 @row.wrongs
 def _(win, lose, n, level):
     """all-pairs-differ: your code lets the policies differ on all n starts. The
@@ -82,6 +105,14 @@ def _(win, lose, n, level):
       if both policies were equally good. Use win / (win + lose)
     normal: your code uses a normal approximation of the p-value. Use the exact
       p-value of `sign_test`
+    normal-power: your function uses a normal approximation of the power. Sum the
+      probabilities of all numbers of wins and losses
+    level-fixed: your code compares the p-value with 0.05. Compare it with the
+      argument level
+    equal-numbers: your code gives each number of starts that differ the same
+      probability. This number has a binomial distribution with n trials
+    chosen-from-all: your code chooses the losses from all n starts. Choose them from
+      the starts that are not wins, because a start cannot be both
     """
     differ = win + lose
     share = win / differ if differ else 0.0
@@ -114,6 +145,10 @@ def _(win, lose, n, level):
         "win-as-share": with_share(win),
         "fair-share": with_share(0.5),
         "normal": power(win, lose, n, level, approximate),
+        "normal-power": normal_power(win, lose, n, level),
+        "level-fixed": power(win, lose, n, 0.05),
+        "equal-numbers": sum(map(given, range(n + 1))) / (n + 1),
+        "chosen-from-all": chosen_from_all(win, lose, n, level),
     }
 
 

@@ -72,6 +72,16 @@ def upto(k, d):
 def _(first, second):
     """strict: your function adds only the splits that are more uneven than the
       observed split. Include the observed split, which is at least as uneven
+    strict 2: your function adds only the splits that are more uneven than the
+      observed split, unless this split is even. Include the observed split
+    wins-only: your sum ends at the number of wins, even if there are fewer losses.
+      End it at the smaller of both numbers
+    four-times: your p-value is four times the probability of one tail. It should be
+      twice this probability, because there are two tails
+    zero-if-none: your p-value is 0 if the policies differ on no start. No start shows
+      a difference in this case, so return 1
+    every-win: your code counts each start on which the policies differ as a win. If
+      only the second policy succeeds, the start is a loss
     one-sided: your test is one-sided. A split in favour of the other policy is as
       uneven, so add both tails
     first-better: your function computes the probability that the first policy has
@@ -82,6 +92,10 @@ def _(first, second):
       which both policies succeed or both fail
     agreement: your function treats each start on which both policies succeed or
       both fail as half a win. Omit these starts
+    agreement 2: your code gives half of the starts on which both policies succeed or
+      both fail to each policy. Omit these starts
+    both-win: your code counts each start on which both policies succeed or both fail
+      as a win and as a loss. Omit these starts
     one-split: your p-value is twice the probability of the observed split alone.
       Include all splits that are more uneven
     mid-p: your p-value contains only half of the probability of the observed split
@@ -111,11 +125,18 @@ def _(first, second):
     z = abs(a - b) / spread if spread else 0.0
     return {
         "strict": min(1.0, 2 * upto(k - 1, d)),
+        "strict 2": min(1.0, 2 * upto(k - 1, d)) if win != lose else 1.0,
+        "wins-only": min(1.0, 2 * upto(win, d)),
+        "four-times": min(1.0, 4 * upto(k, d)),
+        "zero-if-none": min(1.0, 2 * upto(k, d)) * (d > 0),
+        "every-win": min(1.0, 2 / 2**d),
         "one-sided": upto(k, d),
         "first-better": upto(lose, d),
         "not-capped": 2 * upto(k, d),
         "all-starts": min(1.0, 2 * upto(k, n)),
         "agreement": min(1.0, 2 * upto(k + ties, n)),
+        "agreement 2": min(1.0, 2 * upto(k + ties, d + 2 * ties)),
+        "both-win": min(1.0, 2 * upto(k + n - d, 2 * n - d)),
         "one-split": min(1.0, 2 * comb(d, k) / 2**d),
         "mid-p": min(1.0, 2 * upto(k - 1, d) + comb(d, k) / 2**d),
         "all-successes": min(1.0, 2 * upto(k + both, d + 2 * both)),

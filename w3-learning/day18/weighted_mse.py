@@ -48,11 +48,20 @@ def _(pred, target, weight):
       the weights and by the number of columns, so divide the gradient by both
     gradient-mean: your code divides the gradient by the number of rows. The loss is
       divided by the sum of the weights, so divide the gradient by this sum
+    absolute: your code uses the absolute value of each error. Square the errors
+    row-means: your code squares the mean error of each row. Take the mean of the
+      squared errors, because errors of opposite sign cancel in their mean
+    largest-weight: your code divides by the largest weight and by the number of rows.
+      Divide by the sum of the weights
+    weighted-rows: your code divides by the number of rows whose weight is not 0.
+      Divide by the sum of the weights, so that doubled weights give the same loss
     """
     e = pred - target
     n, m = e.shape
     w = weight[:, None]
-    total = weight.sum()
+    total, top = weight.sum(), n * weight.max()
+    used = np.count_nonzero(weight)
+    middle = e.mean(axis=1, keepdims=True)
     loss, slope = np.sum(w * e**2) / (m * total), 2 * w * e / (m * total)
     return {
         "mean": (np.mean(w * e**2), 2 * w * e / (n * m)),
@@ -64,6 +73,12 @@ def _(pred, target, weight):
         "gradient-unweighted": (loss, 2 * e / (n * m)),
         "gradient-not-divided": (loss, 2 * w * e),
         "gradient-mean": (loss, 2 * w * e / (n * m)),
+        "absolute": (np.sum(w * np.abs(e)) / (m * total),
+                     w * np.sign(e) / (m * total)),
+        "row-means": (np.sum(w * middle**2) / total,
+                      2 * w * middle * np.ones(m) / (m * total)),
+        "largest-weight": (loss * total / top, slope * total / top),
+        "weighted-rows": (loss * total / used, slope * total / used),
     }  # fmt: skip
 
 
