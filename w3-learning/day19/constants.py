@@ -43,7 +43,7 @@ def missed(radius=15.0, spacing=100.0, images=LAB.PINHOLES, seed=LAB.SEED):
 
 @numbers.add(
     "largest error of a centroid", "{:.2f} mm",
-    spacing=between(20.0, 23.0, "half of exp(3.7) is 20; the second term is new"),
+    spacing=between(20.0, 23.0, "first term: × exp(3.7) / 2 = 20; the second matters now"),
     sigma=times(0.0, "exp(-2 (pi sigma/s)²) is below 1e-8"),
     finer=same("a quarter of a pixel is on both grids"),
 )  # fmt: skip
@@ -68,8 +68,8 @@ def policy(demos, seed):
 @numbers.add(
     "shift of the puck, camera off by 10 mm", "{:.0f} mm",
     offset=between(1.9, 2.1, "the image of the puck ends at the same place"),
-    demos=same("the shift is the camera's, not the policy's"),
-    seed=same("the shift is the camera's, not the policy's"),
+    demos=same("the camera causes the shift, not the policy"),
+    seed=same("the camera causes the shift, not the policy"),
 )  # fmt: skip
 def shifted(offset=10.0, demos=LAB.DEMOS, seed=LAB.SEED):
     """Return by how much the mean end of the puck moves, mm."""

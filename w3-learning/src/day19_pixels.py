@@ -50,8 +50,8 @@ def height_map(
     """Return the height, m, at which a vertical ray hits the highest sphere, (h, w).
 
     The centres (k, 2) of the spheres have the height 0, and radii (k,) are their radii,
-    m. Pixel [i, j] is at (xs[j], ys[i]); the coordinates are xs (w,) and ys (h,), m. A
-    ray that hits no sphere has the height 0.
+    m. Pixel [i, j] is at (xs[j], ys[i]); the coordinates are xs (w,) and ys (h,), m.
+    Where a ray hits no sphere, the height is 0.
     height_map([[0, 0]], [0.05], [0, 0.03], [0]) -> [[0.05, 0.04]]
     """
     # region 19.1
@@ -83,9 +83,10 @@ def gaussian_kernel(sigma: float, half: int) -> np.ndarray:
 def conv2d(image: np.ndarray, kernel: np.ndarray, stride: int) -> np.ndarray:
     """Return the cross-correlation of an image with a kernel.
 
-    Output [i, j] is the sum of the products of the kernel (p, q) and the window of
-    image (h, w) that has its size and begins at [i stride, j stride]. The kernel is not
-    flipped. There is one output for each window that lies in the image.
+    Output [i, j] is the sum of the products of corresponding entries of the kernel (p,
+    q) and a window of the same size, which begins at [i stride, j stride] of the image
+    (h, w). The kernel is not flipped. There is one output for each window that lies in
+    the image.
     conv2d([[0, 1, 2], [3, 4, 5], [6, 7, 8]], [[1, 0], [0, 2]], 1) -> [[8, 11], [17,
     20]]
     """
@@ -133,10 +134,10 @@ def spatial_softmax(
 ) -> np.ndarray:
     """Return the expected position (x, y) in each map, (c, 2).
 
-    The weights of the pixels of a map are the softmax of maps (c, h, w) / temperature
-    over all its pixels. Pixel [i, j] is at (xs[j], ys[i]), with xs (w,) and ys (h,). An
-    entry may be -inf: its weight is 0. Entries may be large: subtract the maximum of
-    each map before you call exp. Complex arrays are accepted.
+    The weights of each of the maps (c, h, w) are the softmax of its entries divided by
+    the temperature. Pixel [i, j] is at (xs[j], ys[i]), with xs (w,) and ys (h,). An
+    entry may be -inf: its weight is 0. Entries may be large, but exp must not overflow.
+    Complex arrays are accepted.
     spatial_softmax([[[0, log(3)]]], [0, 1], [5], 1) -> [[0.75, 5]]
     """
     # region 19.5
@@ -152,7 +153,7 @@ def spatial_softmax(
 def spatial_softmax_gradient(
     maps: np.ndarray, xs: np.ndarray, ys: np.ndarray, temperature: float, d: np.ndarray
 ) -> np.ndarray:
-    """Return the gradient of a loss with respect to maps (c, h, w), in its shape.
+    """Return the gradient of a loss with respect to maps, of their shape (c, h, w).
 
     The maps, xs (w,), ys (h,) and temperature are as in `spatial_softmax`. d (c, 2) is
     the gradient of the loss with respect to the result of `spatial_softmax`.
