@@ -151,6 +151,14 @@ def test_a_mistake_hides_where_the_guide_says():
         assert np.allclose(right, wrong) == same
 
 
+def test_the_table_of_mistakes_is_counted_right():
+    table = SENTENCES.partition("| PPO | pucks home, of 200 |")[2].partition("Five")[0]
+    right, *wrong = (int(n) for n in re.findall(r"\| (?:about )?(\d+) \|", table))
+    assert len(wrong) == 8
+    assert sum(n >= right for n in wrong) == 5
+    assert "Five of the eight mistakes are as good as the right code" in SENTENCES
+
+
 def test_data_without_a_clip_are_soon_worth_less():
     left, beyond = data_left(CLIP=1e9, ITERATIONS=1)
     assert left == pytest.approx(0.55, abs=0.04)
