@@ -127,7 +127,7 @@ def test_the_opening_is_what_the_lab_prints(printed):
     assert "Its loss on the training data is 0.005" in SENTENCES
     assert "seven times as large, 0.035" in SENTENCES
     counts = [int(n) for n in re.findall(r"home about +(\d+) of +100", printed)]
-    assert counts == pytest.approx([30, 100, 85], abs=8)
+    assert counts == pytest.approx([30, 100, 80], abs=10)
     assert "it brings about 30 of 100 pucks home" in SENTENCES
     assert "it brings about 100 of 100 pucks home" in SENTENCES
 
