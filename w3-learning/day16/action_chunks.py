@@ -64,42 +64,44 @@ def chunks(action, inside, ahead=0):
     }
 )
 def _(action, episode, K):
-    """crosses-episodes: your chunks continue in the next episode. Set entries behind
-      the end of a row's episode to 0
-    starts-next: in your code, a chunk begins with the action of the next row. Entry 0
-      is the action of the row itself
-    wraps: in your code, a chunk continues with the first rows behind the last one.
-      Entries behind the end of the data are 0
-    by-number-only: in your code, all rows with the same number are one episode, but a
-      number may come again later. Only adjacent rows belong together
-    mask-all-ones: your mask is 1 everywhere. It is 0 where the chunk extends beyond
-      the end of the episode
-    held: in your code, the last action of an episode is repeated in the entries that
-      do not exist. These entries are 0
-    wraps-within: in your code, a chunk continues with the first rows of its own
-      episode. Entries behind its end are 0
-    past: your chunks contain the actions before the row. A chunk contains the actions
-      from this row on
-    mask-swapped: your mask is 1 for the entries that do not exist. It should be 1 for
-      the entries that exist
-    mask-of-rows: in your code, a chunk that is not complete has the mask 0
-      everywhere. The mask belongs to the single entries
-    ends-the-data 2: your chunks continue in the next episode. Set entries behind the
-      end of a row's episode to 0
-    wraps 2: in your code, a chunk continues with the first rows behind the last one.
-      Entries behind the end of the data are 0
-    last-row-dropped: in your code, a chunk ends one row before the end of the episode.
-      The last row belongs to the episode, and its action is an entry
-    last-row-dropped 2: your mask is 0 for the action of an episode's last row. This
-      action exists, so its mask is 1
-    only-entry-0: your chunks contain only entry 0, and all later entries are 0. Entry j
-      is the action of row i + j
-    blocks: in your code, K rows share a chunk. The chunk of each row begins with the
-      action of this row
-    neighbours-only: your code compares the episodes of the rows i + j - 1 and i + j.
-      The entries of a chunk belong to the episode of row i
-    only-larger: in your code, an episode begins where the number is larger than before.
-      It begins where the number differs
+    """crosses-episodes: your chunks continue with actions of the next episode. Set the
+      entries after the end of the row's own episode, and their mask, to 0
+    starts-next: your chunks begin with the action of the next row. Entry 0 of chunk i
+      should be the action of row i itself
+    wraps: your chunks continue with the first rows of the data after the last row. Set
+      the entries after the end of the row's own episode, and their mask, to 0
+    by-number-only: your code assigns all rows with the same number to one episode. A
+      number may occur again in a later episode, so begin a new episode wherever the
+      number changes
+    mask-all-ones: your mask is 1 everywhere. Set it to 0 for the entries after the end
+      of the row's episode
+    held: your code repeats the last action of an episode in the entries after its end.
+      Set these entries to 0 instead
+    wraps-within: your chunks continue with the first rows of the same episode after its
+      last row. Set the entries after the end of the episode, and their mask, to 0
+    past: your chunk i contains the action of row i - j as entry j. Use the action of
+      row i + j instead
+    mask-swapped: your mask is inverted. It should be 1 for the entries that exist and 0
+      for all others
+    mask-of-rows: your code sets the whole mask of an incomplete chunk to 0. Set it to 0
+      only for the entries after the end of the episode
+    ends-the-data 2: your chunks continue with actions of the next episode. Set the
+      entries after the end of the row's own episode to 0
+    wraps 2: your chunks continue with the first rows of the data after the last row.
+      Set the entries after the end of the row's own episode, and their mask, to 0
+    last-row-dropped: your chunks end one row before the end of the episode. Include the
+      action of the last row, because this row belongs to the episode
+    last-row-dropped 2: your mask is 0 for the action of an episode's last row. Set it
+      to 1, because this action exists
+    only-entry-0: your chunks contain only entry 0, and all later entries are 0. Use the
+      action of row i + j as entry j if this row belongs to the same episode
+    blocks: your code uses the same chunk for K successive rows. The chunk of each row
+      should begin with the action of that row
+    neighbours-only: your code sets entry j to 0 only where a new episode begins. Set
+      all later entries of the chunk to 0 as well, because they do not belong to the
+      episode of row i
+    only-larger: your code begins a new episode only where the number increases. Begin a
+      new episode wherever the number changes
     """
     n = len(action)
     rows = np.arange(n)[:, None] + np.arange(K)

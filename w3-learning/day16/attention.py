@@ -16,9 +16,10 @@ row = Row(
     held_out=[
         HeldOut(
             "overflows",
-            "Your function is right for small products, but the result is NaN for "
-            "large ones. exp overflows, or it is 0 for a whole row. Subtract the "
-            "largest entry of each row before exp: the weights do not change.",
+            "Your function is correct for small products, but it returns NaN for large "
+            "products. The exponentials of a row overflow, or all of them are 0. "
+            "Subtract the largest entry of each row before you call exp, which does "
+            "not change the weights.",
             long_queries,
         )
     ],
@@ -48,28 +49,29 @@ row.cases(
 
 @row.wrongs
 def _(q, k, v):
-    """wrong-axis: your weights add up to 1 over the queries. The weights of each query
-      add up to 1 over the keys
-    one-softmax: in your code, all weights together add up to 1. The weights of each
-      query add up to 1
-    no-softmax: in your code, the products themselves are the weights. Apply the softmax
-      to each row
-    best-only: your function returns the value of the best key. Attention is a weighted
-      mean of all values
-    no-exp: in your code, the products are divided by their sum. The softmax takes exp
-      of the products first
-    base-2: in your code, the weights are powers of 2. The softmax takes exp of the
-      products
-    sigmoid: your weights are sigmoids of the products, divided by their sum. The
-      softmax takes exp of the products
-    cosines: in your code, queries and keys are divided by their norms. Use the scalar
-      product itself, divided by sqrt(d)
-    cosines 2: in your code, queries and keys are divided by their norms. Use the scalar
-      product itself, divided by sqrt(d)
-    scaled-after: in your code, the mean of the values is divided by sqrt(d). Divide the
-      products by it, before the softmax
-    causal: in your code, query i uses the keys up to i only. In this task each query
-      uses all keys
+    """wrong-axis: your softmax normalises over the queries. Normalise over the keys
+      instead, so that the weights of each query sum to 1
+    one-softmax: your softmax normalises all weights together, so that they sum to 1
+      over all queries. Normalise each row separately, so that the weights of each query
+      sum to 1
+    no-softmax: your code uses the scaled products of queries and keys as weights. Apply
+      the softmax to each row of these products first
+    best-only: your function returns the value of the key with the largest product.
+      Return the weighted mean of all values instead, with the weights of the softmax
+    no-exp: your code divides the products of queries and keys by their sum. Apply exp
+      to each scaled product before this division
+    base-2: your code uses powers of 2 in the softmax. Use exp of the scaled products
+      instead
+    sigmoid: your code applies the sigmoid to the scaled products, and divides by the
+      sum of each row. Apply exp instead of the sigmoid
+    cosines: your code divides queries and keys by their norms. Omit this division, and
+      divide their scalar products by sqrt(d) only
+    cosines 2: your code divides queries and keys by their norms. Omit this division,
+      and divide their scalar products by sqrt(d) only
+    scaled-after: your code divides the mean of the values by sqrt(d). Divide the
+      products of queries and keys by sqrt(d) instead, before the softmax
+    causal: your code restricts query i to the keys 0 to i, as in causal attention. Use
+      all keys for each query instead
     """
     d = q.shape[1]
     raw = q @ k.T

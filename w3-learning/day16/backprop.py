@@ -13,8 +13,9 @@ row = Row(
             "^ValueError.*matmul",
             r"\b[dDgGe]\w* ?@ ?W[123]\b(?!\.(T|mT|transpose))",
             "not-transposed",
-            "Your function stops because a weight matrix is not transposed. On the way "
-            "back, a gradient (n, outputs) is multiplied by W^T, (outputs, inputs).",
+            "Your function stops because a weight matrix is not transposed. In the "
+            "backward pass, multiply a gradient of shape (n, outputs) by W^T, whose "
+            "shape is (outputs, inputs).",
         ),
     ),
 )
@@ -39,34 +40,40 @@ row.cases(
 
 @row.wrongs
 def _(x, d, W1, b1, W2, b2, W3, b3):
-    """dx-before-the-slope: your gradient of x uses the gradient behind the first tanh.
-      Multiply by 1 - h^2 of the first layer before W1^T
-    dx-with-input-slope: your gradient of x is multiplied by 1 - x^2. The input is not
-      an output of tanh, so there is no such factor
-    slope-of-h: in your code, the derivative of tanh is computed as 1 - tanh(h)^2 from
-      the layer's output h. The output is tanh already, so the derivative is 1 - h^2
-    mse-again: in your code, d is divided by the number of its entries and doubled, as
-      in the gradient of a mean squared error. d is the gradient already
-    dx-mean: your gradient of x is a mean over the rows. Each row of x has a gradient of
-      its own
-    slope-at-the-end: in your code, d is multiplied by a derivative of tanh. The last
-      layer is linear, so its derivative is 1
-    dx-of-the-hidden: your last result is the gradient of the first layer's output.
-      Take it back through W1 to the input
-    slope-at-the-end 2: in your code, d is multiplied by a derivative of tanh. The last
-      layer is linear, so its derivative is 1
-    slope-of-the-sum: in your code, the derivative of tanh is computed as 1 - a^2 from
-      its argument a. It is 1 - h^2, where h is the output of tanh
-    no-biases: your forward pass omits the biases. They shift the argument of tanh and
-      thereby change its derivative
-    slope-of-relu: in your code, a derivative is 1 for positive outputs and 0 for the
-      others, as for a ReLU. The layers are tanh, so the derivative is 1 - h^2
-    slope-of-relu 2: in your code, the derivative of the second layer is 1 for positive
-      outputs and 0 for the others, as for a ReLU. The derivative of tanh is 1 - h^2
-    mean-again: in your code, the gradients of weights and biases are divided by the
-      number of rows. d is the gradient of the whole loss, so sum over the rows
-    dx-accumulated: in your code, each row of the gradient of x contains the rows before
-      it. Each row depends on its own sample only
+    """dx-before-the-slope: your gradient with respect to x omits the derivative of the
+      first tanh. Multiply by 1 - h^2 before you multiply by W1^T, where h is the output
+      of the first layer
+    dx-with-input-slope: your code multiplies the gradient with respect to x by 1 - x^2.
+      Omit this factor, because x is the input and not an output of tanh
+    slope-of-h: your code computes the derivative of tanh as 1 - tanh(h)^2, where h is
+      the output of the layer. Use 1 - h^2 instead, because h already is the output of
+      tanh
+    mse-again: your code doubles d and divides it by the number of its entries, as in
+      the gradient of a mean squared error. Use d itself, because it already is the
+      gradient of the loss with respect to the outputs
+    dx-mean: your code divides the gradient with respect to x by the number of rows.
+      Omit this division, because d already is the gradient of the whole loss
+    slope-at-the-end: your code multiplies d by a derivative of tanh. Omit this factor,
+      because the last layer is linear
+    dx-of-the-hidden: your last result is the gradient with respect to the output of the
+      first layer. Multiply it by the derivative of the first tanh, and then by W1^T
+    slope-at-the-end 2: your code multiplies d by a derivative of tanh. Omit this
+      factor, because the last layer is linear
+    slope-of-the-sum: your code computes the derivative of tanh as 1 - a^2, where a is
+      the argument of tanh. Use 1 - h^2 instead, where h is the output of tanh
+    no-biases: your forward pass omits the biases. Add the bias of each layer before
+      tanh, because it changes the output and the derivative of tanh
+    slope-of-relu: your code uses the derivative of a ReLU, which is 1 for positive
+      outputs and 0 for all others. Use the derivative of tanh instead, which is 1 - h^2
+      for the output h
+    slope-of-relu 2: your code uses the derivative of a ReLU for the second layer. Use
+      the derivative of tanh instead, which is 1 - h^2 for the output h
+    mean-again: your code divides the gradients with respect to weights and biases by
+      the number of rows. Omit this division, because d already is the gradient of the
+      whole loss
+    dx-accumulated: your code accumulates the gradient with respect to x over the rows.
+      Return a separate gradient for each row, because a row of x affects only its own
+      outputs
     """
     h1 = np.tanh(x @ W1 + b1)
     h2 = np.tanh(h1 @ W2 + b2)

@@ -39,32 +39,40 @@ row.cases(
 
 @row.wrongs
 def _(dz, mu, logvar, noise, beta):
-    """noise-forgotten: your gradient of logvar does not contain the noise. The
-      derivative of the sample with respect to logvar is noise exp(logvar / 2) / 2
-    kl-not-divided: in your code, the divergence is summed over the rows. The loss
-      contains its mean: divide by n
-    kl-not-divided 2: your function divides the divergence by all n z entries. The loss
-      sums over the columns and averages over the rows: divide by n
-    dz-divided: in your code, dz is divided by n as well. It is a gradient of a mean
-      already
-    dz-not-passed-on: your gradient of logvar contains the divergence only. The sample
-      depends on logvar as well
-    by-the-std: your last result is the gradient with respect to the standard deviation.
-      Multiply it by the derivative exp(logvar / 2) / 2 of the standard deviation
-    by-the-std 2: in your code, dz is multiplied by the derivative of the sample with
-      respect to the standard deviation. Multiply by exp(logvar / 2) / 2 as well
-    sample-for-noise: in your gradient of logvar, dz is multiplied by the sample. mu
-      does not depend on logvar, so only the noise belongs there
-    sample-for-noise 2: in your gradient of logvar, dz is multiplied by the sample. mu
-      does not depend on logvar, so only the noise belongs there
-    beta-forgotten: in your gradient of logvar, the divergence is not multiplied by
-      beta. The loss contains beta times the divergence
-    beta-forgotten 2: in your code, the divergence is not multiplied by beta. The loss
-      contains beta times the divergence
-    not-differentiated: your gradient contains the divergence itself. It should
-      contain its derivative
-    not-differentiated 2: your gradient of mu contains mu^2 / 2, a term of the
-      divergence itself. It should contain the derivative of this term
+    """noise-forgotten: your gradient with respect to logvar omits the noise. Multiply
+      dz by noise * exp(logvar / 2) / 2, which is the derivative of the sample with
+      respect to logvar
+    kl-not-divided: your code uses the sum of the divergences over the rows. Divide the
+      derivatives of this sum by n, because the loss contains the mean over the rows
+    kl-not-divided 2: your code divides the derivatives of the divergence by the number
+      of all entries, n * z. Divide them by n only, because the loss sums the divergence
+      over the z columns
+    dz-divided: your code divides dz by n. Omit this division, because dz already is the
+      gradient of the decoder's loss
+    dz-not-passed-on: your gradient with respect to logvar contains only the derivative
+      of the divergence. Add dz times the derivative of the sample with respect to
+      logvar, because the sample also depends on logvar
+    by-the-std: your second result is the gradient with respect to the standard
+      deviation. Multiply it by exp(logvar / 2) / 2, which is the derivative of the
+      standard deviation with respect to logvar
+    by-the-std 2: your code multiplies dz by the derivative of the sample with respect
+      to the standard deviation. Multiply this product by exp(logvar / 2) / 2, which is
+      the derivative of the standard deviation with respect to logvar
+    sample-for-noise: your code multiplies dz by half of the sample. Multiply it by
+      noise * exp(logvar / 2) / 2 instead, which is the derivative of the sample with
+      respect to logvar
+    sample-for-noise 2: your gradient with respect to logvar contains dz times the
+      sample. Use the noise instead of the sample, because mu does not depend on logvar
+    beta-forgotten: your gradient with respect to logvar contains the derivative of the
+      divergence without the factor beta. Multiply this derivative by beta, because the
+      loss contains beta times the divergence
+    beta-forgotten 2: your gradients contain the derivatives of the divergence without
+      the factor beta. Multiply these derivatives by beta, because the loss contains
+      beta times the divergence
+    not-differentiated: your gradients contain the divergence itself. Use its
+      derivatives with respect to mu and logvar instead
+    not-differentiated 2: your gradient with respect to mu contains mu^2 / 2, which is a
+      term of the divergence itself. Use the derivative of this term instead
     """
     n = len(dz)
     each = beta / n

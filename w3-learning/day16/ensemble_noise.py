@@ -26,13 +26,18 @@ row.cases(
 
 @row.wrongs
 def _(k, decay):
-    """equal-weights: your result is 1 / sqrt(k), which holds for equal weights only
-    sum-not-squared: in your code, the weights are not squared, so your result is 1.
-      The variance of each error is multiplied by the square of its weight
-    effective-number: your result is 1 / sum(w^2), the number of plans with equal
-      weights that leave the same noise. The standard deviation is the root of sum(w^2)
-    spread-of-the-weights: your result is the standard deviation of the weights. Each
-      weight multiplies an error with the standard deviation 1: add the variances
+    """equal-weights: your function returns 1 / sqrt(k), which is correct for equal
+      weights only. Use the weights of `temporal_ensemble`, add the variances of the
+      weighted errors, and take the square root of their sum
+    sum-not-squared: your function returns 1, because it does not square the weights.
+      Square each weight before you add, because the variance of each error is
+      multiplied by the square of its weight
+    effective-number: your function returns 1 / sum(w^2) for the weights w. This value
+      is the number of equally weighted plans that leave the same noise. Return the
+      square root of sum(w^2) instead
+    spread-of-the-weights: your function returns the standard deviation of the weights.
+      Add the variances of the weighted errors instead, and take the square root of
+      their sum
     """
     weights = np.exp(-decay * np.arange(k))
     weights = weights / weights.sum()

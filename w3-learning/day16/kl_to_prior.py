@@ -29,13 +29,15 @@ row.cases(
 
 @row.wrongs
 def _(mu, logvar):
-    """bits: your divergence is in bits. Use the natural logarithm, which gives nats
-    swapped: your divergence is the one of the prior from the Gaussian, with both
-      distributions swapped. Take the mean under the Gaussian with mu and logvar
-    log-of-std: in your code, logvar is the logarithm of the standard deviation. It is
-      the logarithm of the variance
-    entropy: your result is the entropy of the Gaussian. The divergence is the mean of
-      ln q - ln p, so it depends on the prior and on mu as well
+    """bits: your function returns the divergence in bits. Use the natural logarithm
+      instead of the logarithm to the base 2, so that the unit is nats
+    swapped: your function returns the divergence of the prior from the Gaussian. Swap
+      the two distributions: average ln q - ln p under the Gaussian q, where p is the
+      prior
+    log-of-std: your code uses logvar as the logarithm of the standard deviation. Use it
+      as the logarithm of the variance instead, so that exp(logvar) is the variance
+    entropy: your function returns the entropy of the Gaussian q. Return the mean of ln
+      q - ln p under q instead, where p is the prior
     """
     var = np.exp(logvar)
     right = (var + mu**2 - 1 - logvar) / 2

@@ -51,33 +51,42 @@ row.cases(
 
 @row.wrongs
 def _(pred, target, mask):
-    """divided-by-all: in your code, the sum is divided by the number of all entries,
-      including padding. Divide by the entries that exist
-    mask-forgotten: in your code, the padded entries are included. They have no
-      target: multiply their errors by the mask
-    loss-unmasked: your gradient is right, but your loss includes the padded entries.
-      Multiply their errors by the mask
-    gradient-unmasked: your loss is right, but your gradient is not 0 for padded
-      entries. They have no effect on the loss
-    squared: your loss is the mean of the squared errors. Take their absolute values
-    mean-of-means: your result is the mean over the rows of one mean per row. Take one
-      mean over all entries that exist, so that each has the same weight
-    gradient-not-divided: your gradient is the sign of the error. The loss is a mean,
-      so divide the gradient by the same number
-    divided-by-rows: in your code, the sum is divided by the number of rows. Divide by
-      the number of existing entries, times m
-    gradient-by-all: your loss is right, but your gradient is divided by the number of
-      all entries, including padding. Divide it by the same number as the loss
-    not-0-at-0: your gradient is not 0 for an error of 0. There the derivative does not
-      exist, and the task uses 0, as `np.sign` does
-    not-0-at-0 2: your gradient is not 0 for an error of 0. There the derivative does
-      not exist, and the task uses 0, as `np.sign` does
-    norms: your loss contains the Euclidean norm of each entry. Take the absolute value
-      of each of its m numbers
-    norms 2: your loss contains the Euclidean norm of each entry. Take the absolute
-      value of each of its m numbers
-    root-mean-square: your loss is the root of the mean squared error. Take the mean of
-      the absolute values
+    """divided-by-all: your code divides the sum of the errors by the number of all
+      errors, n * K * m, which includes the padding. Divide it by m times the sum of the
+      mask instead
+    mask-forgotten: your code averages the errors over the padded entries as well, which
+      have no target. Multiply the errors by the mask, and divide their sum by m times
+      the sum of the mask
+    loss-unmasked: your gradient is correct, but your loss is the mean over all entries,
+      including the padding. Multiply the errors by the mask, and divide their sum by m
+      times the sum of the mask
+    gradient-unmasked: your loss is correct, but your gradient is not 0 for padded
+      entries. Multiply the gradient by the mask, because padded entries have no effect
+      on the loss
+    squared: your function computes the mean squared error and its gradient. Use the
+      absolute values of the errors instead of their squares
+    mean-of-means: your code computes the mean absolute error of each row, and then
+      averages these means. Take one mean over all entries that exist instead, so that
+      each entry has the same weight
+    gradient-not-divided: your gradient contains the sign of each error without a
+      division. Divide it by m times the sum of the mask, because the loss is divided by
+      this number
+    divided-by-rows: your code divides the sum of the errors by the number of rows.
+      Divide it by m times the sum of the mask instead, which is the number of existing
+      errors
+    gradient-by-all: your loss is correct, but your code divides the gradient by the
+      number of all errors, including the padding. Divide it by m times the sum of the
+      mask, as in the loss
+    not-0-at-0: your gradient is not 0 where the error is 0. Use 0 as the derivative of
+      |e| at 0, as `np.sign` does
+    not-0-at-0 2: your gradient is not 0 where the error is 0. Use 0 as the derivative
+      of |e| at 0, as `np.sign` does
+    norms: your loss contains the Euclidean norm of the m errors of each entry. Use the
+      sum of the absolute values of these errors instead
+    norms 2: your loss contains the Euclidean norm of the m errors of each entry. Use
+      the sum of the absolute values of these errors instead
+    root-mean-square: your loss is the square root of the mean squared error. Use the
+      mean of the absolute values of the errors instead
     """
     w = mask[..., None] * 1.0
     m = pred.shape[2]

@@ -24,20 +24,22 @@ row.cases(
 
 @row.wrongs
 def _(mu, logvar, noise):
-    """exp-of-logvar: in your code, the noise is multiplied by the variance. Multiply by
-      the standard deviation, its square root
-    base-2: in your code, logvar is a logarithm to the base 2. It is the natural
-      logarithm
-    logvar-as-std: in your code, the noise is multiplied by logvar itself. logvar is the
-      logarithm of the variance: multiply by the standard deviation
-    half-variance: in your code, the noise is multiplied by half of the variance. The
-      square root of exp(logvar) halves the exponent
-    root-of-the-log: in your code, the noise is multiplied by the square root of logvar.
-      The logarithm comes first: exp(logvar) is the variance
-    softplus: in your code, the variance is ln(1 + exp(logvar)). logvar is the logarithm
-      of the variance, so the variance is exp(logvar)
-    standardised: your code subtracts the mean and divides by the standard deviation.
-      That takes a sample back to the noise; the task asks for the sample
+    """exp-of-logvar: your code multiplies the noise by the variance. Multiply it by the
+      standard deviation instead, which is the square root of the variance
+    base-2: your code uses logvar as a logarithm to the base 2. Use exp instead of
+      powers of 2, because logvar is the natural logarithm of the variance
+    logvar-as-std: your code multiplies the noise by logvar, which is the logarithm of
+      the variance. Multiply the noise by the standard deviation instead
+    half-variance: your code multiplies the noise by half of the variance. Halve the
+      exponent instead, because the standard deviation is the square root of exp(logvar)
+    root-of-the-log: your code multiplies the noise by the square root of the absolute
+      value of logvar. Compute the variance exp(logvar) first, and then take its square
+      root
+    softplus: your code uses ln(1 + exp(logvar)) as the variance. Use exp(logvar)
+      instead, because logvar is the logarithm of the variance
+    standardised: your code subtracts the mean from the noise and divides by the
+      standard deviation. This computation converts a sample to noise. Use its inverse
+      instead, which converts the noise to a sample
     """
     std = np.exp(logvar / 2)
     return {

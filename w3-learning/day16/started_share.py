@@ -22,31 +22,36 @@ row.cases(
 
 @row.wrongs
 def _(wait, K):
-    """majority: your result is 1 where more than half of the chunks have started, the
-      median. The task asks for the fraction
-    wait-not-plus-1: your fraction is divided by the steps of the pause. A pause of w
-      steps has w + 1 rows with the same observation
-    not-clamped: your fractions exceed 1. After the longest wait all chunks have
-      started
-    one-jump: your result is 0 before the entry `wait` and 1 from there on, as in the
-      chunk of the first row. Average over the rows of the pause
-    one-entry-late: your result is j / (w + 1). By entry 0 the chunk of the row that
-      moves has started already
-    moving-row-omitted: your mean is over the w rows of the pause. The first row in
-      which the demonstrator moves has the same observation, so w + 1 rows belong to it
-    moving-row-omitted 2: your mean is over the w rows of the pause. The first row in
-      which the demonstrator moves has the same observation, so w + 1 rows belong to it
-    one-entry-early: your result is (j + 2) / (w + 1). By entry 0 only the chunk of one
-      row has started
-    independent-starts: your result holds if the motion starts in each step with the
-      probability 1 / (w + 1). The pause has a fixed number of steps: count its rows
-    all-started: your result is 1 everywhere. In the pause, the motion has started by
-      entry j only in the rows in which at most j steps remain
-    still-waiting: your result is the fraction that still waits. Subtract it from 1
-    stretched: your fractions rise evenly until the last entry. The longest wait ends at
-      the entry `wait`, for any K
-    stretched 2: your fractions rise evenly until the last entry. The longest wait ends
-      at the entry `wait`, for any K
+    """majority: your function returns the median over the rows, which is 1 if the
+      motion has started in more than half of the rows. Return the fraction of the rows
+      in which the motion has started instead
+    wait-not-plus-1: your code divides by `wait`. Divide by wait + 1 instead, because
+      wait + 1 rows have the same observation
+    not-clamped: your function returns fractions above 1. Limit each fraction to 1,
+      because the motion has started in all rows from entry `wait` on
+    one-jump: your function returns the chunk of the first row, which is 0 before entry
+      `wait` and 1 from this entry on. Average the chunks of all wait + 1 rows instead
+    one-entry-late: your function returns j / (wait + 1). Use j + 1 instead of j,
+      because entry 0 is already at full speed in the row with 0 remaining steps
+    moving-row-omitted: your code averages over the `wait` rows of the pause only.
+      Include the first row in which the demonstrator moves, because it has the same
+      observation
+    moving-row-omitted 2: your code averages over the `wait` rows of the pause only.
+      Include the first row in which the demonstrator moves, because it has the same
+      observation
+    one-entry-early: your function returns (j + 2) / (wait + 1). Use j + 1 instead of j
+      + 2, because entry 0 is at full speed in one row only
+    independent-starts: your formula assumes that the motion starts with probability 1 /
+      (wait + 1) in each step. The pause has a fixed number of steps, so count the rows
+      in which at most j steps remain
+    all-started: your function returns 1 for every entry. Return the fraction of the
+      rows in which at most j steps remain until the motion starts
+    still-waiting: your function returns the fraction of the rows in which the motion
+      has not started by entry j. Subtract this fraction from 1
+    stretched: your code increases the fraction linearly up to the last entry. Increase
+      it by 1 / (wait + 1) per entry instead, until it is 1 at entry `wait`
+    stretched 2: your code increases the fraction linearly up to the last entry.
+      Increase it by 1 / (wait + 1) per entry instead, until it is 1 at entry `wait`
     """
     j = np.arange(K)
     right = np.minimum(1, (j + 1) / (wait + 1))

@@ -39,36 +39,39 @@ row.cases(
 
 @row.wrongs
 def _(plans, decay):
-    """newest-first: your largest weight for a positive decay belongs to the newest
-      plan. The plans are given the oldest first, and the oldest has the weight exp(0)
-    first-entries: in your code, the first entry of each plan is averaged. The first
-      entry of an old plan was for an earlier step: take the entry for now
-    same-entry: in your code, entry i of plan i is used, as if plan 0 were the newest.
-      Plan i was made k - 1 - i steps ago
-    last-entries: in your code, the last entry of each plan is averaged. Plan i has its
-      action for now at the entry k - 1 - i
-    counted-from-the-end: in your code, entry K - 1 - i of plan i is used. The newest of
-      k plans has its first entry for now, so take entry k - 1 - i
-    one-entry-late: in your code, entry k - i of plan i is used. The newest plan, i =
-      k - 1, has its first entry for now
-    moving-average: your code updates a mean with the same two factors in every step.
-      The weight of plan i is exp(-decay i), divided by the sum of all weights
-    moving-average 2: your code updates a mean with the same two factors in every step.
-      The weight of plan i is exp(-decay i), divided by the sum of all weights
-    all-entries: in your code, all entries of a plan are averaged. Only one entry of
-      each plan is for now
-    divided-by-k: in your code, the sum is divided by the number of plans. Divide it by
-      the sum of the weights
-    equal-weights: in your code, all plans have the same weight. The weight of plan i is
-      proportional to exp(-decay i)
-    newest-only: your function returns the first entry of the newest plan. The result is
-      the weighted mean of all plans
-    oldest-only: your function returns the action of the oldest plan. The result is the
-      weighted mean of all plans
-    median: your function returns the median of the plans. The result is their weighted
-      mean
-    powers-of-the-decay: in your code, the weight of plan i is the decay to the power i.
-      It is exp(-decay i)
+    """newest-first: your code assigns the weight exp(0) to the newest plan. Assign it
+      to the oldest plan instead, which is plan 0
+    first-entries: your code averages the first entries of all plans. The first entry of
+      an older plan was for an earlier step, so use the entry for the current step
+      instead
+    same-entry: your code uses entry i of plan i, as if plan 0 were the newest. Use
+      entry k - 1 - i instead, because plan i was made k - 1 - i steps ago
+    last-entries: your code averages the last entries of all plans. Use entry k - 1 - i
+      of plan i instead, which is the entry for the current step
+    counted-from-the-end: your code uses entry K - 1 - i of plan i. Use entry k - 1 - i
+      instead, because the first entry of the newest plan is for the current step
+    one-entry-late: your code uses entry k - i of plan i. For the newest plan, i = k -
+      1, the entry for the current step is the first one, which has index 0
+    moving-average: your code computes an exponential moving average, which uses the
+      same two factors in every step. The weight of plan i should be exp(-decay * i)
+      divided by the sum of these exponentials over all plans
+    moving-average 2: your code computes an exponential moving average, which uses the
+      same two factors in every step. The weight of plan i should be exp(-decay * i)
+      divided by the sum of these exponentials over all plans
+    all-entries: your code averages all entries of each plan. Use only the entry for the
+      current step, which is entry k - 1 - i of plan i
+    divided-by-k: your code divides the weighted sum by the number of plans. Divide it
+      by the sum of the weights instead
+    equal-weights: your code gives all plans the same weight. Make the weight of plan i
+      proportional to exp(-decay * i)
+    newest-only: your function returns the action of the newest plan. Return the
+      weighted mean of the actions of all plans for the current step instead
+    oldest-only: your function returns the action of the oldest plan. Return the
+      weighted mean of the actions of all plans for the current step instead
+    median: your function returns the median of the plans' actions for the current step.
+      Return their weighted mean instead
+    powers-of-the-decay: your code uses decay to the power i as the weight of plan i.
+      Use exp(-decay * i) instead
     """
     k, K, _ = plans.shape
     i = np.arange(k)

@@ -11,8 +11,9 @@ row = Row(
             "^ValueError: operands could not be broadcast",
             r"abar",
             "one-per-row",
-            "Your function stops because abar (n,) is multiplied by an array (n, d). "
-            "abar has one number per row, so make it a column: abar[:, None].",
+            "Your function stops because it multiplies abar, of shape (n,), by an "
+            "array of shape (n, d). Make abar a column, abar[:, None], because it has "
+            "one number per row.",
         ),
     ),
 )
@@ -37,12 +38,12 @@ row.at_least_0(abar="a fraction")
 
 @row.wrongs
 def _(x0, noise, abar):
-    """roots-forgotten: your factors are abar and 1 - abar. These are fractions of the
-      power, so the factors are their square roots
-    noise-root-forgotten: your noise has the factor 1 - sqrt(abar). The powers add up to
-      1, so the factor is sqrt(1 - abar)
-    abar-as-factor: your factors are abar and sqrt(1 - abar^2), so the fraction abar^2
-      of the data's power is left. The factor of the data is sqrt(abar)
+    """roots-forgotten: your code uses the factors abar and 1 - abar. Use their square
+      roots instead, because abar and 1 - abar are fractions of the power
+    noise-root-forgotten: your code multiplies the noise by 1 - sqrt(abar). Use sqrt(1 -
+      abar) instead, because the squares of the two factors should sum to 1
+    abar-as-factor: your code uses the factors abar and sqrt(1 - abar^2). Use sqrt(abar)
+      and sqrt(1 - abar) instead, because abar is a fraction of the power
     """
     a = abar[:, None]
     keep = np.sqrt(a)

@@ -30,31 +30,35 @@ row.at_least_0(T="a number of levels", answer="fractions")
 
 @row.wrongs
 def _(T):
-    """linear: your schedule is the linear one, with beta from 0.0001 to 0.02. It is
-      made for 1000 levels, and with fewer levels much of the signal is left at the end
-    no-square: your f is the cosine. It is the square of the cosine, because abar is a
-      power
-    no-offset: your f has no offset. Use t / T + 0.008, divided by 1.008
-    no-cap: your last abar is 0, because beta is 1 there. Limit beta to 0.999, so that a
-      sampler can divide by the root of abar
-    from-level-0: your abar of level t is f(t) / f(0), so the first level has no noise.
-      Level t ends at f(t + 1)
-    from-level-0 2: your abar of level t is f(t), so the first level has nearly no
-      noise. Level t ends at f(t + 1)
-    betas: your result is beta, the fraction that each level removes. Return the product
-      of 1 - beta over this level and all before it
-    beta-of-the-start: your beta is the difference f(t) - f(t + 1). Level t removes a
-      fraction of the power that is left, so divide the difference by f(t)
-    betas-added: your code adds the fractions beta and subtracts the sum from 1. Each
-      beta is a fraction of the power that is left, so multiply the numbers 1 - beta
-    offset-outside: in your code, only the offset 0.008 is divided by 1.008. Divide the
-      sum t / T + 0.008 by 1.008
-    abar-limited: your code limits abar itself to at least 0.001. Limit beta to 0.999,
-      and then multiply the numbers 1 - beta
-    ratio-inverted: your ratio is f(t) / f(t + 1), which is above 1. Level t leads from
-      f(t) to f(t + 1), so 1 - beta is f(t + 1) / f(t)
-    always-at-limit: in your code, beta is 0.999 at every level. The limit should act
-      only where 1 - f(t + 1) / f(t) is larger, which is at the last level
+    """linear: your function returns the linear schedule, with beta from 0.0001 to 0.02.
+      Use the cosine schedule instead, because with few levels the linear one leaves
+      much of the signal at the end
+    no-square: your code uses the cosine as f. Use the square of the cosine instead,
+      because f is a fraction of the power
+    no-offset: your code omits the offset in f. Replace t / T by (t / T + 0.008) / 1.008
+    no-cap: your last abar is 0, because its beta is 1. Limit beta to 0.999, because a
+      sampler divides by the square root of abar
+    from-level-0: your code computes abar of level t as f(t) / f(0), so level 0 has no
+      noise. Multiply the factors 1 - beta up to and including level t, because level t
+      ends at f(t + 1)
+    from-level-0 2: your code computes abar of level t as f(t), so level 0 has nearly no
+      noise. Multiply the factors 1 - beta up to and including level t, because level t
+      ends at f(t + 1)
+    betas: your function returns beta, which is the fraction that each level removes.
+      Return the product of 1 - beta over that level and all levels before it
+    beta-of-the-start: your code computes beta as f(t) - f(t + 1). Divide this
+      difference by f(t), because level t removes a fraction of the power that is left
+    betas-added: your code adds the values of beta and subtracts their sum from 1.
+      Multiply the factors 1 - beta instead, because each beta is a fraction of the
+      power that is left
+    offset-outside: your code divides only the offset 0.008 by 1.008. Divide the whole
+      sum t / T + 0.008 by 1.008 instead
+    abar-limited: your code limits abar to at least 0.001. Limit beta to at most 0.999
+      instead, and then multiply the factors 1 - beta
+    ratio-inverted: your code uses f(t) / f(t + 1) as 1 - beta, so this factor is above
+      1. Use f(t + 1) / f(t) instead, because level t leads from f(t) to f(t + 1)
+    always-at-limit: your code sets beta to 0.999 at every level. Use the smaller of
+      0.999 and 1 - f(t + 1) / f(t) instead
     """
     f = np.cos(angle(np.arange(T + 1) / T)) ** 2
     beta = np.minimum(1 - f[1:] / f[:-1], 0.999)

@@ -27,18 +27,20 @@ row.at_least_0(abar="a fraction", prev="a fraction")
 
 @row.wrongs
 def _(x, eps, abar, prev):
-    """noise-not-put-back: your result is sqrt(prev) times the clean samples. Samples at
-      the level prev contain noise as well: add sqrt(1 - prev) eps
-    clean-returned: your result is the clean samples. Move them to the level prev:
-      multiply them by sqrt(prev) and add sqrt(1 - prev) eps
-    prev-not-rooted: your factors of the new level are prev and 1 - prev. They are
-      fractions of the power, so the factors are their square roots
-    clipped-at-1: in your code, the clean samples are clipped to -1 to 1, as for images.
-      Data outside this range would be lost
-    ddpm-mean: your result is the mean of a random step (task 17.5). A deterministic
-      step adds the noise eps to the clean samples again, with the factor sqrt(1 - prev)
-    last-step-skipped: your result at prev = 1 is x itself. The last step removes all
-      the noise, so its result is the clean samples
+    """noise-not-put-back: your function returns sqrt(prev) times the clean samples. Add
+      sqrt(1 - prev) * eps, because samples at the level prev also contain noise
+    clean-returned: your function returns the clean samples. Multiply them by sqrt(prev)
+      and add sqrt(1 - prev) * eps, because samples at the level prev also contain noise
+    prev-not-rooted: your code multiplies the clean samples by prev and eps by 1 - prev.
+      Use the square roots of these factors instead, because prev is a fraction of the
+      power
+    clipped-at-1: your code clips the clean samples to the interval from -1 to 1, as for
+      images. Omit this clipping, because the data may lie outside this interval
+    ddpm-mean: your function returns the mean of a random step (task 17.5). For a
+      deterministic step, multiply the clean samples by sqrt(prev) and add sqrt(1 -
+      prev) * eps
+    last-step-skipped: your function returns x at prev = 1. Return the clean samples
+      instead, because the last step removes all the noise
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
     back, rest = np.sqrt(prev), np.sqrt(1 - prev)

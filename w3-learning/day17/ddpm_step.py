@@ -35,33 +35,39 @@ row.at_least_0(abar="a fraction", prev="a fraction")
 
 @row.wrongs
 def _(x, eps, abar, prev, noise):
-    """beta-for-the-variance: your variance is 1 - abar / prev. Given the clean sample
-      it is smaller: multiply it by (1 - prev) / (1 - abar)
-    level-of-prev: your result is a sample at the level prev with fresh noise only.
-      Given x, its mean also contains x, and its variance is smaller
-    as-ddim: your result contains the noise eps again, as `ddim_step` does, and fresh
-      noise. The mean is a weighted sum of the clean sample and x
-    alpha-inverted: your alpha is prev / abar, which is above 1. From prev to abar the
-      signal becomes weaker, so alpha is abar / prev
-    alpha-inverted 2: your two weights use alpha = prev / abar, a number above 1. From
-      prev to abar the signal becomes weaker, so alpha is abar / prev
-    alpha-inverted 3: your alpha is prev / abar, so the variance would be negative, and
-      you take its absolute value. From prev to abar the signal becomes weaker, so alpha
-      is abar / prev
-    eps-of-one-step: your mean subtracts sqrt(1 - alpha) eps from x. eps is the noise of
-      all levels up to abar, so its factor is (1 - alpha) / sqrt(1 - abar)
-    variance-of-prev: your weights are divided by 1 - prev. Divide them by the variance
-      of the innovation, 1 - abar
-    no-fresh-noise: your result is the mean. Add the given noise times the standard
-      deviation
-    gain-without-root: your gain is (1 - prev) / (1 - abar). The measurement x contains
-      sqrt(alpha) times the sample, so the gain also has the factor sqrt(alpha)
+    """beta-for-the-variance: your code uses the variance 1 - abar / prev. Multiply it
+      by (1 - prev) / (1 - abar), because the variance given x and the clean sample is
+      smaller
+    level-of-prev: your function draws the result from the distribution given the clean
+      sample alone. Use the distribution given x and the clean sample instead. Its mean
+      also contains x, and its variance is smaller
+    as-ddim: your code adds the fresh noise to the result of `ddim_step`. Add it to the
+      mean of the Gaussian instead, which is a weighted sum of the clean sample and x
+    alpha-inverted: your code uses prev / abar as alpha, so alpha is above 1. Use abar /
+      prev instead, because the signal becomes weaker from prev to abar
+    alpha-inverted 2: your code uses alpha = prev / abar in the two weights, so alpha is
+      above 1. Use abar / prev instead, because the signal becomes weaker from prev to
+      abar
+    alpha-inverted 3: your code uses prev / abar as alpha, and takes the absolute value
+      of the negative variance. Use abar / prev instead, because the signal becomes
+      weaker from prev to abar
+    eps-of-one-step: your code subtracts sqrt(1 - alpha) * eps from x. Use the factor (1
+      - alpha) / sqrt(1 - abar) instead, because eps is the noise of all levels up to
+      abar
+    variance-of-prev: your code divides both weights by 1 - prev. Divide them by 1 -
+      abar instead, which is the variance of the innovation
+    no-fresh-noise: your function returns the mean without fresh noise. Add the given
+      noise, multiplied by the standard deviation
+    gain-without-root: your code uses the gain (1 - prev) / (1 - abar). Multiply it by
+      sqrt(alpha), because the measurement x contains sqrt(alpha) times the sample at
+      the level prev
     innovation-at-prev: your code subtracts sqrt(prev) times the clean sample from x.
-      The measurement x is at the level abar, so subtract sqrt(abar) times the clean
-      sample
-    variance-without-root: your variance is (1 - prev) (1 - K). The measurement contains
-      sqrt(alpha) times the sample, so the variance is (1 - prev) (1 - K sqrt(alpha))
-    abar-for-alpha: your alpha is abar. A single step keeps the fraction abar / prev
+      Subtract sqrt(abar) times the clean sample instead, because x is at the level abar
+    variance-without-root: your code uses the variance (1 - prev) * (1 - K), where K is
+      the gain. Multiply K by sqrt(alpha), because the measurement x contains
+      sqrt(alpha) times the sample at the level prev
+    abar-for-alpha: your code uses abar as alpha. Use abar / prev instead, because a
+      step from prev to abar keeps this fraction of the power
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
     clean = (x - lose * eps) / keep

@@ -34,20 +34,25 @@ row.at_least_0(k="a number of averages")
 
 @row.wrongs
 def _(slow, fast, k):
-    """max-for-min: your decay is the larger of 0.995 and (1 + k) / (10 + k). It is the
-      smaller one, so that the first averages forget the start quickly
-    always-0995: your decay is always 0.995, so the start keeps a large weight for
-      hundreds of steps
-    never-0995: your decay has no upper limit, so the average becomes slower and slower.
-      Limit it to 0.995
-    average-before: your decay is k / (9 + k), the decay of one average before. The
-      first average has k = 0 and the decay 1 / 10, so it is (1 + k) / (10 + k)
-    decay-0: your result is the new parameters, because the decay is 0. It is the
-      fraction (1 + k) / (10 + k), which // rounds down to 0
-    plain-mean 2: your old average has the weight k / (k + 1), as in the mean of all new
-      parameters. Its weight is (1 + k) / (10 + k)
-    plain-mean: your result is the mean of all parameters so far, which never forgets
-      the start
+    """max-for-min: your code uses the larger of 0.995 and (1 + k) / (10 + k) as the
+      weight of the old average. Use the smaller number instead, so that the weight of
+      the initial parameters decreases quickly
+    always-0995: your code always gives the old average the weight 0.995. Use (1 + k) /
+      (10 + k) while it is smaller, so that the weight of the initial parameters
+      decreases quickly
+    never-0995: your code does not limit the weight of the old average. Limit it to
+      0.995, because otherwise the average follows the new parameters more and more
+      slowly
+    average-before: your code uses k / (9 + k) as the weight of the old average. Use (1
+      + k) / (10 + k) instead, because the first average has k = 0 and the weight 1 / 10
+    decay-0: your function returns the new parameters, because the weight of the old
+      average is 0. This weight should be (1 + k) / (10 + k). Compute it with / and not
+      with //, which rounds it down to 0
+    plain-mean 2: your code uses k / (k + 1) as the weight of the old average, as in the
+      mean of all new parameters. Use (1 + k) / (10 + k) instead, but at most 0.995
+    plain-mean: your function returns the mean of all parameters so far, where the old
+      average has the weight (k + 1) / (k + 2). Use (1 + k) / (10 + k) instead, but at
+      most 0.995
     """
     grows = (1 + k) / (10 + k)
 

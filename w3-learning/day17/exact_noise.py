@@ -47,41 +47,50 @@ row.at_least_0(abar="a fraction", sigma="a standard deviation", weights="probabi
     }
 )
 def _(x, abar, means, sigma, weights):
-    """data-width-forgotten: in your code, the variance of a noisy mode is 1 - abar. The
-      data have a width as well, so it is abar sigma^2 + 1 - abar
-    data-width-forgotten 2: in your code, the mean distance is divided by sqrt(1 - abar)
-      at the end, as if all of it were noise. A part of it is the width of the data:
-      multiply by sqrt(1 - abar) / (abar sigma^2 + 1 - abar)
-    data-width-forgotten 3: the variance in your exponent is 1 - abar. The data have a
-      width as well, so it is abar sigma^2 + 1 - abar, as in the factor of the result
-    x-not-deviation: your code multiplies x itself by the gain. Multiply the deviation
-      of x from the mean of each noisy mode, and average over the modes
-    nearest-mode: in your code, each row belongs to its nearest mode alone. Take the
-      mean over all modes, weighted with their probabilities given x
-    nearest-mode 2: in your code, each row belongs to its most probable mode alone. Take
-      the mean over all modes, weighted with their probabilities given x
-    weights-only: in your code, the probability of a mode does not depend on x. Multiply
-      its weight by its density at x and normalise
-    clean: your result is the mean of the data given x. Return the mean of the noise
-    score: your result is the gradient of ln p, the score. The mean of the noise is
-      -sqrt(1 - abar) times the score
-    overflow: all densities of a row far from the modes are 0 in your code, and 0 / 0 is
-      NaN. Subtract the row's largest exponent before you call exp
-    overflow 2: in your code, one number is subtracted from the exponents of all rows.
-      Subtract each row's own largest exponent, or a row far from the modes gives 0 / 0
-    over-all-rows: your probabilities add up to 1 over all rows together. Each row has
-      probabilities of its own, so divide by the row's sum
-    over-all-rows 2: your probabilities add up to 1 over all rows together. Each row has
-      probabilities of its own, so divide by the row's sum
-    per-coordinate: in your code, each coordinate of a row has probabilities of its own.
-      A row belongs to one mode: sum the squares over the coordinates in the exponent
-    overflow 3: in your code, the largest exponent of each mode over all rows is
-      subtracted, which changes the probabilities. Subtract each row's largest exponent
-    overflow 4: your result is 0 far from all modes, because every density is 0 there in
-      floating-point numbers. Subtract the row's largest exponent before you call exp
-    overflow 5: your code adds a small number to the sum of the densities, so far from
-      all modes, where every density is 0, every probability is 0 as well. Subtract the
-      row's largest exponent before you call exp
+    """data-width-forgotten: your code uses 1 - abar as the variance of each noisy mode.
+      Use abar * sigma^2 + 1 - abar instead, because the data in a mode have the
+      variance sigma^2
+    data-width-forgotten 2: your code divides the mean deviation of x from the noisy
+      means by sqrt(1 - abar). Multiply it by sqrt(1 - abar) / (abar * sigma^2 + 1 -
+      abar) instead, because the data also contribute to the deviation
+    data-width-forgotten 3: your code uses the variance 1 - abar in the exponent. Use
+      abar * sigma^2 + 1 - abar instead, as in the factor of the result
+    x-not-deviation: your code multiplies x by sqrt(1 - abar) divided by the variance.
+      Replace x by its mean deviation from the noisy means, weighted with the
+      probabilities of the modes given x
+    nearest-mode: your code assigns each row to its nearest mode alone. Return the mean
+      noise over all modes instead, weighted with the probabilities of the modes given x
+    nearest-mode 2: your code assigns each row to its most probable mode alone. Return
+      the mean noise over all modes instead, weighted with the probabilities of the
+      modes given x
+    weights-only: your code uses probabilities of the modes that do not depend on x.
+      Multiply the weight of each mode by its density at x, and normalise the products
+    clean: your function returns the mean of the data given x. Return the mean of the
+      noise given x instead
+    score: your function returns the score, which is the gradient of the logarithm of
+      the density with respect to x. Multiply it by -sqrt(1 - abar) to obtain the mean
+      of the noise
+    overflow: your function returns NaN for a row far from all modes, because all
+      densities of the row underflow to 0. Subtract the largest exponent of each row
+      before you call exp
+    overflow 2: your code subtracts the same number from the exponents of all rows.
+      Subtract the largest exponent of each row instead, because otherwise a row far
+      from all modes gives 0 / 0
+    over-all-rows: your code normalises the probabilities over all rows together.
+      Normalise each row separately, so that the probabilities of each row sum to 1
+    over-all-rows 2: your code normalises the probabilities over all rows together.
+      Normalise each row separately, so that the probabilities of each row sum to 1
+    per-coordinate: your code computes separate probabilities for each coordinate of a
+      row. Sum the squared deviations over the coordinates in the exponent, because a
+      row belongs to one mode as a whole
+    overflow 3: your code subtracts the largest exponent of each mode over all rows,
+      which changes the probabilities. Subtract the largest exponent of each row over
+      all modes instead
+    overflow 4: your function returns 0 far from all modes, because all densities
+      underflow to 0. Subtract the largest exponent of each row before you call exp
+    overflow 5: your code adds a small number to the sum of the densities, so all
+      probabilities are 0 where all densities underflow to 0. Subtract the largest
+      exponent of each row before you call exp instead
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
     given = x, keep, lose, means, sigma, weights

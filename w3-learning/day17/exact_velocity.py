@@ -44,56 +44,69 @@ row.at_least_0(t="from 0 to 1", sigma="a standard deviation", weights="probabili
     }
 )
 def _(x, t, means, sigma, weights):
-    """data-width-forgotten: in your code, the variance of x in a mode is (1 - t)^2. The
-      data have a width as well, so it is t^2 sigma^2 + (1 - t)^2
-    data-width-forgotten 2: the variance in your exponent is (1 - t)^2. The data have a
-      width as well, so it is t^2 sigma^2 + (1 - t)^2, as in the slope
-    x-not-deviation: your code multiplies x itself by the slope. Multiply the deviation
-      of x from the mean of x in each mode
-    distance-so-far: your result is x minus the mean of the noise, the distance that is
-      covered. The velocity is this distance divided by the time t
+    """data-width-forgotten: your code uses (1 - t)^2 as the variance of x in each mode.
+      Use t^2 * sigma^2 + (1 - t)^2 instead, because the data in a mode have the
+      variance sigma^2
+    data-width-forgotten 2: your code uses the variance (1 - t)^2 in the exponent. Use
+      t^2 * sigma^2 + (1 - t)^2 instead, as in the slope of the velocity
+    x-not-deviation: your code multiplies x by the slope of the velocity. Multiply the
+      deviation of x from its mean in each mode instead. The mean of x in a mode is t
+      times the mode's mean
+    distance-so-far: your function returns the mean displacement from the noise to x.
+      Return the mean velocity instead, which is the mean of data - noise given x
     division-by-0 2: your code divides by t, which is 0 at the start. Use the slope of
-      the velocity, the covariance divided by the variance of x
-    nearest-mode: in your code, each row belongs to its nearest mode alone. Take the
-      mean over all modes, weighted with their probabilities given x
-    nearest-mode 2: in your code, each row belongs to its most probable mode alone. Take
-      the mean over all modes, weighted with their probabilities given x
-    weights-only: in your code, the probability of a mode does not depend on x. Multiply
-      its weight by its density at x and normalise
-    clean: your result is the mean of the data given x. Return the mean of data - noise
-    minus-x: your result is the mean of the data minus x, the distance that is left. The
-      velocity is this distance divided by the remaining time 1 - t
-    covariance-squared: your covariance of x and the velocity has the squares of t and
-      1 - t, as the variance of x. It has their first powers: t sigma^2 - (1 - t)
-    variance-not-squared: your variance of x is t sigma^2 + 1 - t. A factor acts on the
-      variance by its square, so it is t^2 sigma^2 + (1 - t)^2
-    noisy-means: your velocity in a mode contains t times the mode's mean, which is the
-      mean of x. The mean of the velocity is the mode's mean itself
+      the velocity instead, which is the covariance of x and the velocity divided by the
+      variance of x
+    nearest-mode: your code assigns each row to its nearest mode alone. Return the mean
+      velocity over all modes instead, weighted with the probabilities of the modes
+      given x
+    nearest-mode 2: your code assigns each row to its most probable mode alone. Return
+      the mean velocity over all modes instead, weighted with the probabilities of the
+      modes given x
+    weights-only: your code uses probabilities of the modes that do not depend on x.
+      Multiply the weight of each mode by its density at x, and normalise the products
+    clean: your function returns the mean of the data given x. Return the mean of data -
+      noise given x instead
+    minus-x: your function returns the mean displacement from x to the data. Return the
+      mean velocity instead, which is the mean of data - noise given x
+    covariance-squared: your code uses t^2 * sigma^2 - (1 - t)^2 as the covariance of x
+      and the velocity. Use t * sigma^2 - (1 - t) instead, because the velocity is data
+      - noise
+    variance-not-squared: your code uses t * sigma^2 + 1 - t as the variance of x. Use
+      t^2 * sigma^2 + (1 - t)^2 instead, because the variance contains the squares of
+      the factors of data and noise
+    noisy-means: your code uses t times the mode's mean as the mean velocity in a mode.
+      Use the mode's mean itself, because t times the mode's mean is the mean of x
     division-by-0: your code divides by 1 - t, which is 0 at t = 1. Use the slope of the
-      velocity, the covariance divided by the variance of x
-    means-only: your velocity in a mode is the mode's mean. It also depends on the
-      distance of x from t times this mean
-    time-reversed: in your code, t runs from the data to the noise. In this lab it runs
-      from the noise at t = 0 to the data at t = 1
-    diffusion-roots: your factors of data and noise are sqrt(t) and sqrt(1 - t), as in
-      diffusion. In flow matching they are t and 1 - t
-    overflow: all densities of a row far from the modes are 0 in your code, and 0 / 0 is
-      NaN. Subtract the row's largest exponent before you call exp
-    overflow 2: in your code, one number is subtracted from the exponents of all rows.
-      Subtract each row's own largest exponent, or a row far from the modes gives 0 / 0
-    over-all-rows: your probabilities add up to 1 over all rows together. Each row has
-      probabilities of its own, so divide by the row's sum
-    over-all-rows 2: your probabilities add up to 1 over all rows together. Each row has
-      probabilities of its own, so divide by the row's sum
-    per-coordinate: in your code, each coordinate of a row has probabilities of its own.
-      A row belongs to one mode: sum the squares over the coordinates in the exponent
-    overflow 3: in your code, the largest exponent of each mode over all rows is
-      subtracted, which changes the probabilities. Subtract each row's largest exponent
-    overflow 4: your velocity is 0 far from all modes, because every density is 0 there
-      in floating-point numbers. Subtract the row's largest exponent before you call exp
-    overflow 5: your code adds a small number to the sum of the densities, so far from
-      all modes, where every density is 0, every probability is 0 as well. Subtract the
-      row's largest exponent before you call exp
+      velocity instead, which is the covariance of x and the velocity divided by the
+      variance of x
+    means-only: your code uses the mode's mean as the velocity in a mode. Add the slope
+      of the velocity times the deviation of x from t times the mode's mean
+    time-reversed: your code uses the factor 1 - t for the data and t for the noise.
+      Swap these factors, because x is the noise at t = 0 and the data at t = 1
+    diffusion-roots: your code uses the factor sqrt(t) for the data and sqrt(1 - t) for
+      the noise, as in diffusion. Use t and 1 - t instead, as in `flow_pair`
+    overflow: your function returns NaN for a row far from all modes, because all
+      densities of the row underflow to 0. Subtract the largest exponent of each row
+      before you call exp
+    overflow 2: your code subtracts the same number from the exponents of all rows.
+      Subtract the largest exponent of each row instead, because otherwise a row far
+      from all modes gives 0 / 0
+    over-all-rows: your code normalises the probabilities over all rows together.
+      Normalise each row separately, so that the probabilities of each row sum to 1
+    over-all-rows 2: your code normalises the probabilities over all rows together.
+      Normalise each row separately, so that the probabilities of each row sum to 1
+    per-coordinate: your code computes separate probabilities for each coordinate of a
+      row. Sum the squared deviations over the coordinates in the exponent, because a
+      row belongs to one mode as a whole
+    overflow 3: your code subtracts the largest exponent of each mode over all rows,
+      which changes the probabilities. Subtract the largest exponent of each row over
+      all modes instead
+    overflow 4: your function returns 0 far from all modes, because all densities
+      underflow to 0. Subtract the largest exponent of each row before you call exp
+    overflow 5: your code adds a small number to the sum of the densities, so all
+      probabilities are 0 where all densities underflow to 0. Subtract the largest
+      exponent of each row before you call exp instead
     """
     given = x, t, 1 - t, means, sigma, weights
 

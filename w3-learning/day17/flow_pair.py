@@ -14,8 +14,9 @@ row = Row(
             "^ValueError: operands could not be broadcast",
             r"\bt\b",
             "one-per-row",
-            "Your function stops because t (n,) is multiplied by an array (n, d). "
-            "t has one number per row, so make it a column: t[:, None].",
+            "Your function stops because it multiplies t, of shape (n,), by an array "
+            "of shape (n, d). Make t a column, t[:, None], because it has one "
+            "number per row.",
         ),
     ),
 )
@@ -34,21 +35,24 @@ row.at_least_0(t="from 0 to 1")
 
 @row.wrongs
 def _(x0, noise, t):
-    """diffusion-roots: your factors are the roots of t and 1 - t, as in diffusion. Flow
-      matching moves along a straight line: the factors are t and 1 - t
-    time-reversed: your point is the data at t = 0 and the noise at t = 1. In this lab,
-      t runs from the noise to the data
-    other-convention: in your code, t runs from the data to the noise, as in some
-      papers, and the velocity points to the noise. In this lab, t runs from noise to
-      data
-    to-go: your velocity is the distance that is left, x0 - x_t. The whole distance x0 -
-      noise takes the time 1, so it is the velocity
-    distance-so-far: your velocity is the distance that is covered, x_t - noise. The
-      whole distance x0 - noise takes the time 1, so it is the velocity
-    divided-by-the-rest: your velocity is divided by 1 - t. Only the distance that is
-      left takes the time 1 - t; the whole distance x0 - noise takes the time 1
-    division-by-0: your code divides the distance that is covered by t, which is 0 / 0
-      at t = 0. Compute the velocity from data and noise, without a division
+    """diffusion-roots: your code uses the square roots of t and 1 - t as factors, as in
+      diffusion. Use t and 1 - t instead, because the point moves along a straight line
+    time-reversed: your point is the data at t = 0 and the noise at t = 1. Swap the
+      factors t and 1 - t, because the point should move from the noise to the data
+    other-convention: your point moves from the data to the noise, as in some papers. In
+      this task the point moves from the noise to the data. Swap the factors t and 1 -
+      t, and negate the velocity
+    to-go: your velocity is the displacement from the point to the data. Use the
+      displacement from the noise to the data instead, because the point covers it
+      between t = 0 and t = 1
+    distance-so-far: your velocity is the displacement from the noise to the point. Use
+      the displacement from the noise to the data instead, because the point covers it
+      between t = 0 and t = 1
+    divided-by-the-rest: your code divides x0 - noise by 1 - t. Omit this division,
+      because the point covers x0 - noise between t = 0 and t = 1
+    division-by-0: your code divides the displacement from the noise by t, which gives 0
+      / 0 at t = 0. Compute the velocity directly from data and noise, without a
+      division
     """
     t = t[:, None]
     at = (1 - t) * noise + t * x0

@@ -28,23 +28,27 @@ row.at_least_0(T="a number of levels", n="a number of steps", answer="levels")
 
 @row.wrongs
 def _(T, n):
-    """leading: your levels are multiples of T // n, so the noisiest one, T - 1, is
-      missing. The samples start from noise, so the first level is T - 1
-    trailing: your levels are T / n apart from T - 1 on, so the last one is not 0. Use n
-      equally spaced numbers from T - 1 to 0
-    whole-steps: your levels are T // n apart, so their number is not always n and 0 may
-      be missing. Use n equally spaced numbers and round them
-    whole-steps 2: the distance of your levels is rounded down to a whole number, so the
-      last one is not always 0. Use n equally spaced numbers and round them
-    endpoint-missing: your levels are (T - 1) / n apart, so the last one is not 0. From
-      T - 1 to 0 there are n - 1 distances
-    ascending: your levels are in ascending order. A sampler starts at the noisiest
-      level, T - 1
-    one-step-at-0: your only level is 0 for n = 1. A sampler starts at the noisiest
-      level, T - 1, also with a single step
-    rounded-down: your levels are rounded down. Round them to the nearest whole number
-    rounded-up: your levels are rounded up. Round them to the nearest whole number
-    not-rounded: your levels are not rounded. They are indices of the schedule
+    """leading: your levels are multiples of T // n, so the noisiest level, T - 1, is
+      missing. Use n equally spaced numbers from T - 1 to 0, and round them
+    trailing: your levels decrease from T - 1 in steps of T / n, so the last level is
+      not 0. Use n equally spaced numbers from T - 1 to 0, and round them
+    whole-steps: your levels decrease in steps of T // n, so their number is not always
+      n and 0 may be missing. Use n equally spaced numbers from T - 1 to 0, and round
+      them
+    whole-steps 2: your code rounds the distance between levels down, so the last level
+      is not always 0. Use n equally spaced numbers from T - 1 to 0, and round them
+    endpoint-missing: your levels decrease in steps of (T - 1) / n, so the last level is
+      not 0. Divide T - 1 by n - 1 instead, because n levels have n - 1 distances
+    ascending: your levels are in ascending order. Return them in descending order,
+      because a sampler starts at the noisiest level, T - 1
+    one-step-at-0: your function returns the level 0 for n = 1. Return T - 1 instead,
+      because a sampler always starts at the noisiest level
+    rounded-down: your code rounds the levels down. Round them to the nearest whole
+      number instead
+    rounded-up: your code rounds the levels up. Round them to the nearest whole number
+      instead
+    not-rounded: your function does not round the levels. Round them to the nearest
+      whole number, because they are indices of the schedule
     """
     even = np.linspace(T - 1, 0, n)
     return {

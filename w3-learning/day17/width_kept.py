@@ -28,31 +28,36 @@ row.at_least_0(abars="fractions", sigma="a standard deviation", answer="a fracti
 
 @row.wrongs(hidden={"pure-noise-first": "the lab's first level is nearly pure noise"})
 def _(abars, sigma):
-    """width-forgotten: in your code, the vectors are (sqrt(abar), sqrt(1 - abar)).
-      Their first component is the standard deviation of the signal, sigma sqrt(abar)
-    first-and-last-only: your result is the cosine of the angle between the first
-      direction and the last. Each step loses the cosine of its own angle: multiply them
-    last-step-forgotten: in your code, the step from the last level to abar = 1 is
-      missing
-    last-step-forgotten 2: in your code, the step from the last level to abar = 1 is
-      missing if there are several levels
-    last-level-0: in your code, the last step leads to abar = 0, which is pure noise. It
-      leads to abar = 1, the data without noise
-    last-level-first: in your code, abar = 1 comes before the other levels. The steps
-      begin at the noisiest level, and the last one leads to abar = 1
-    sines: your factors are the sines of the angles. A step keeps the cosine of its
+    """width-forgotten: your code uses the vectors (sqrt(abar), sqrt(1 - abar)).
+      Multiply the first component by sigma, so that it is the standard deviation of the
+      signal
+    first-and-last-only: your function returns the cosine of the angle between the first
+      and the last direction. Each step multiplies the width by the cosine of its own
+      angle, so return the product of these cosines
+    last-step-forgotten: your code omits the step from the last level to abar = 1.
+      Multiply the result by the cosine of this step as well
+    last-step-forgotten 2: your code omits the step from the last level to abar = 1 if
+      there are several levels. Multiply the result by the cosine of this step as well
+    last-level-0: your last step leads to abar = 0, which is pure noise. It should lead
+      to abar = 1, which is the data without noise
+    last-level-first: your code inserts abar = 1 before the other levels. Append it
+      after the other levels, because the last step leads to abar = 1
+    sines: your code multiplies the sines of the angles. Use the cosines instead,
+      because each step multiplies the width by the cosine of its angle
+    pure-noise-first: your code adds a step from abar = 0 to the first level. Omit this
+      step, because the first step starts at the first level
+    mean: your function returns the mean of the cosines. Each step multiplies the width
+      by the cosine of its angle, so return the product of the cosines
+    sum: your function returns the sum of the cosines. Each step multiplies the width by
+      the cosine of its angle, so return the product of the cosines
+    width: your function returns the standard deviation after all steps. Divide it by
+      sigma to obtain the fraction
+    lengths-kept: your code divides each scalar product by the square of the first
+      vector's norm. Divide it by the product of the norms of both vectors instead,
+      which gives the cosine
+    dots: your code multiplies the scalar products of successive vectors. Divide each
+      scalar product by the norms of both vectors first, which gives the cosine of the
       angle
-    pure-noise-first: your code adds a step from abar = 0 to the first level. The first
-      step starts at the first level
-    mean: your result is the mean of the cosines. Each step multiplies the width, so
-      multiply them
-    sum: your cosines are added. Each step multiplies the width, so multiply them
-    width: your result is the standard deviation that is left. Return it as a fraction
-      of sigma
-    lengths-kept: your factors are the scalar products divided by the square of the
-      first vector's length. The cosine is the product divided by both lengths
-    dots: your factors are the products of the vectors, not divided by their lengths.
-      The cosine is the product divided by both lengths
     """
     levels = np.append(abars, 1)
 
