@@ -34,37 +34,42 @@ def _(rng):
 
 @row.wrongs
 def _(first, second):
-    """numbers-collide: your code does not shift the numbers of the second data set,
-      so episodes of both sets have the same number. Add the largest number in the
-      first set plus 1
-    shift-by-last: your code shifts by the last number in the first data set plus 1.
-      Use the largest number, because the numbers can have any order
-    shared-number: your code shifts by the largest number in the first data set. Add
-      1, because otherwise two episodes have this number
-    largest-of-both: your code shifts by the largest number in both data sets plus
-      1. Use the largest number in the first set, so that no number is skipped
-    first-shifted: your code shifts the numbers of the first data set. Keep these
-      numbers and shift the numbers of the second set
-    per-row: your code gives each new row an episode of its own. Shift all numbers
-      of the second set by the same number
-    counted: your code shifts by the number of episodes in the first data set. Use
-      the largest number plus 1, because some numbers can be missing
-    counted-rows: your code shifts by the number of rows in the first data set. Use
-      the largest episode number plus 1
-    new-only: your result omits the rows of the first data set. Return the old rows,
-      and then the rows of the second data set
-    second-first: your code puts the rows of the second data set first. Put these
-      rows after the rows of the first data set
-    renumbered: your code numbers all episodes again from 0. Keep the numbers of the
-      first data set
-    without-gaps: your code numbers the episodes of the second data set without gaps.
-      Add the same shift to all numbers
-    without-gaps 2: your code numbers the episodes of the second data set without
-      gaps, in the order in which they begin. Add the same shift to all numbers
-    sorted-rows: your code sorts all rows by the number of the episode. Keep the order
-      of the rows
-    sorted-numbers: your code sorts the numbers of the episodes, but not the rows.
-      Keep the order of the numbers
+    """numbers-collide: your code does not shift the episode numbers of the second data
+      set. Add the largest number in the first set plus 1, so that no two episodes have
+      the same number
+    shift-by-last: your code shifts the episode numbers by the last number in the first
+      data set plus 1. Use the largest number in this set instead, because the numbers
+      can be in any order
+    shared-number: your code shifts the episode numbers by the largest number in the
+      first data set. Add 1 to this shift; otherwise episode 0 of the second set gets an
+      existing number
+    largest-of-both: your code shifts the episode numbers by the largest number in both
+      data sets plus 1. Use only the largest number in the first set, as the task
+      specifies
+    first-shifted: your code shifts the episode numbers of the first data set. Keep the
+      numbers of the first set, and shift the numbers of the second set instead
+    per-row: your code assigns a new episode number to each row of the second data set.
+      Rows of one episode need a common number, so shift all numbers by the same amount
+    counted: your code shifts the episode numbers by the number of episodes in the first
+      data set. Use the largest number in this set plus 1, because some numbers can be
+      missing
+    counted-rows: your code shifts the episode numbers by the number of rows in the
+      first data set. Use the largest episode number in this set plus 1 instead
+    new-only: your result omits the rows of the first data set. Return the rows of the
+      first data set, followed by the rows of the second
+    second-first: your code puts the rows of the second data set first. Put the rows of
+      the second data set after the rows of the first
+    renumbered: your code renumbers the episodes of both data sets from 0. Keep the
+      episode numbers of the first data set, and only shift the numbers of the second
+    without-gaps: your code renumbers the episodes of the second data set without gaps.
+      Add the same shift to all episode numbers of this set instead
+    without-gaps 2: your code renumbers the episodes of the second data set without
+      gaps, in their order of appearance. Add the same shift to all episode numbers of
+      this set instead
+    sorted-rows: your code sorts all rows by episode number. Keep the rows of each data
+      set in their original order
+    sorted-numbers: your code sorts the episode numbers, but not the observations and
+      actions. Keep the episode numbers in the order of their rows
     """
     of, of_2 = first[2], second[2]
     seen, done = (np.vstack([first[i], second[i]]) for i in (0, 1))

@@ -34,28 +34,35 @@ def _(rng):
 
 @row.wrongs
 def _(p, n, k):
-    """mean: your result is the mean success rate. Return the expected rate of the
-      best of k tests, which is larger
-    any-success: your result is the probability of at least one success in k trials.
-      Return the expected largest of k numbers of successes, divided by n
-    all-succeed: your result is the probability that one of k policies succeeds on
-      all n starts. Return the expected largest number of successes, divided by n
-    worst: your result is the expected rate of the worst policy. The best policy has
-      at most s successes if all k policies have at most s
-    one-fewer: your result is the expected rate of the best of k - 1 policies. All k
-      policies have at most s successes with the probability F(s)^k
-    times-k: your code multiplies F by k. All k policies have at most s successes
-      with the probability F^k, because they are independent
-    times-k 2: your code multiplies F by k and limits the product to 1. All k policies
-      have at most s successes with the probability F^k, because they are independent
-    density: your code uses k F^(k - 1) f, the density of the largest of k continuous
-      variables. For whole numbers the probability is F(s)^k - F(s - 1)^k
-    possible-numbers: your code divides by n + 1, the number of possible results.
-      Divide by the number of starts, n
-    median: your result is the median of the largest number, as a rate. Return the
-      expected value
-    normal: your function uses the normal approximation p + sqrt(2 ln k p (1 - p) / n).
-      Sum the binomial probabilities
+    """mean: your function returns the expected success rate of a single policy. Return
+      the expected success rate of the best of k policies, which is larger for k > 1
+    any-success: your function returns the probability of at least one success in k
+      trials. Return the expected largest number of successes of the k policies, divided
+      by n
+    all-succeed: your function returns the probability that at least one of k policies
+      succeeds on all n starts. Return the expected largest number of successes, divided
+      by n
+    worst: your function returns the expected success rate of the worst policy. The best
+      policy has at most s successes with probability F(s)^k, where F is the binomial
+      distribution function
+    one-fewer: your function returns the expected success rate of the best of k - 1
+      policies. The probability that all k policies have at most s successes is F(s)^k,
+      where F is the binomial distribution function
+    times-k: your code multiplies the binomial distribution function F by k. The
+      probability that all k policies have at most s successes is F(s)^k, because the
+      policies are independent
+    times-k 2: your code multiplies the binomial distribution function F by k and limits
+      the product to 1. Use F(s)^k, the probability that all k policies have at most s
+      successes
+    density: your code uses k F^(k - 1) f, the density of the maximum of k continuous
+      variables with distribution function F and density f. The largest number of
+      successes is s with probability F(s)^k - F(s - 1)^k
+    possible-numbers: your code divides by n + 1, the number of possible results of a
+      test. Divide by the number of starts, n, instead
+    median: your function returns the median of the largest number of successes, divided
+      by n. Return the expected value of this number, divided by n
+    normal: your function uses the normal approximation p + sqrt(2 ln(k) p (1 - p) / n).
+      Compute the expected value with the exact binomial probabilities instead
     """
     cdf = np.cumsum(pmf(n, p))
     below = np.minimum(cdf[:n], 1.0)

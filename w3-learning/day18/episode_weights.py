@@ -33,28 +33,33 @@ def _(rng):
 
 @row.wrongs
 def _(episode):
-    """one-over-length: your weights of each episode have the sum 1, so the mean of
-      all weights is not 1. Multiply by the number of rows and divide by the number
-      of episodes
-    sums-to-1: the sum of all your weights is 1. The mean should be 1, so multiply
-      the weights by the number of rows
-    length: your weights are proportional to the length of the episode. Divide by the
-      length, so that a long episode has small weights
-    root: your weights are proportional to 1 / sqrt(length). Use 1 / length, so that
-      all episodes have the same total weight
-    by-runs: your code begins a new episode at each change of the number. Rows with
-      the same number belong to one episode, even if other rows are between these
-      rows
-    equal: your weights are all 1, so a long episode has more influence than a short
-      one. Divide by the length of the episode
-    per-episode: your result has one weight per episode. Return one weight per row
-    largest-number: your code uses the largest number plus 1 as the number of
-      episodes. Count the different numbers, because some numbers can be missing
-    in-order-of-numbers: your weights have the order of the episode numbers. Give
-      each row the weight of its own episode, because the rows can have any order
-    mean-over-episodes: the mean of your weights is 1 over the episodes. It should be
-      1 over the rows, so multiply by the number of rows and divide by the number of
-      episodes
+    """one-over-length: your weights sum to 1 in each episode, so the mean of all
+      weights is not 1. Multiply the weights by the number of rows and divide by the
+      number of episodes
+    sums-to-1: your weights sum to 1 over all rows. The mean of the weights should be 1,
+      so multiply the weights by the number of rows
+    length: your weights are proportional to the number of rows of the episode. Use the
+      reciprocal of this number instead, so that each episode has the same total weight
+    root: your weights are proportional to 1 / sqrt(length), where length is the number
+      of rows of the episode. Use 1 / length instead, so that all episodes have the same
+      total weight
+    by-runs: your code starts a new episode wherever the episode number changes. Rows
+      with the same number belong to one episode, even if rows of other episodes lie
+      between these rows
+    equal: your code gives each row the weight 1, so a long episode has more influence
+      than a short episode. Make each weight inversely proportional to the length of the
+      row's episode
+    per-episode: your function returns one weight per episode. Return one weight per
+      row, which is the weight of the row's episode
+    largest-number: your code uses the largest episode number plus 1 as the number of
+      episodes. Count the distinct episode numbers instead, because some numbers can be
+      missing
+    in-order-of-numbers: your code returns the weights in ascending order of the episode
+      numbers. The rows can be in any order, so assign to each row the weight of its own
+      episode
+    mean-over-episodes: your code scales the weights so that their mean over the
+      episodes is 1. The mean over the rows should be 1, so divide the weights by their
+      mean over the rows
     """
     _, of, length = np.unique(episode, return_inverse=True, return_counts=True)
     n, E = len(episode), len(length)

@@ -37,25 +37,28 @@ def _(rng):
 
 @row.wrongs(hidden={"near-1": "the lab has no factor near 1, except 1 itself"})
 def _(a, step, T):
-    """always-linear: your error grows by the same amount in each step. Each step
-      also multiplies the present error by a
-    limit: your function returns the limit of the error for many steps, s / (1 - a).
-      Include the term with a^T, because T is finite
-    limit 2: your function returns the limit of the error for many steps, s / (1 - a),
-      if a is below 1. Include the term with a^T, because T is finite
-    near-1: your code uses s T for factors near 1 as well. Use it for a = 1 only
-    zero-at-1: your function returns 0 for a = 1. Each step adds the same error in
-      this case, so return s T
-    one-error: your function lets a single error grow by the factor a per step. Each
-      of the T steps adds an error, so return a sum
-    one-error 2: your function lets a single error grow by the factor a per step.
-      Each of the T steps adds an error, so return a sum
-    summed-errors: your function adds the errors of all T steps. Return the error
-      after the last step
-    continuous: your code uses exp((a - 1) T), which is a limit for small steps. The
-      recursion multiplies by a in each step, so use a^T
-    step-multiplied: your code also multiplies the new error by a. Multiply only the
-      present error by a, and then add the new error
+    """always-linear: your code adds `step` in each step, but does not multiply the
+      previous error by a. Multiply the previous error by a first, and then add `step`
+    limit: your function returns `step` / (1 - a), the limit of the error for infinitely
+      many steps if |a| < 1. Multiply this value by 1 - a^T, because T is finite
+    limit 2: your function returns the limit of the error for infinitely many steps,
+      `step` / (1 - a), if a is below 1. Multiply this limit by 1 - a^T, because T is
+      finite
+    near-1: your code uses `step` * T for values of a near 1 as well. Use this product
+      for a = 1 only, and the geometric sum for all other values
+    zero-at-1: your function returns 0 for a = 1. In this case each step adds `step` to
+      the error, so return `step` * T
+    one-error: your function returns `step` * a^T, so only a single error grows. Each of
+      the T steps adds a new error, so return the sum of all T contributions
+    one-error 2: your function returns `step` * a^(T - 1), so only the first error is
+      included. Each of the T steps adds a new error, so return the sum of all T
+      contributions
+    summed-errors: your function returns the sum of the errors after all steps. Return
+      only the error after the last step
+    continuous: your code uses exp((a - 1) T), which approximates a^T only for a near 1.
+      Each step multiplies the error by a, so use a^T instead
+    step-multiplied: your code also multiplies the newly added error by a. Multiply only
+      the previous error by a, and then add `step`
     """
     a = np.float64(a)
     geometric = step * np.sum(a ** np.arange(T))

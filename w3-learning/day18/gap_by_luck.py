@@ -40,25 +40,28 @@ def _(rng):
 
 @row.wrongs(hidden={"one-direction-doubled": "the lab has no gap of 0"})
 def _(p, n, gap):
-    """rates-as-floats: your code compares a difference of rates with gap / n.
-      Compare whole numbers of starts, because the rounding of the rates excludes
-      some pairs with exactly this gap
-    one-direction: your function adds only the pairs in which the first test has more
-      successes. Include the pairs in which the second test has more
-    one-set: your function compares one test with the expected number n p. Both tests
-      are random, so sum over pairs
-    normal: your function uses a normal approximation. Sum the binomial
-      probabilities, because the approximation is poor for few starts
+    """rates-as-floats: your code compares the difference of the success rates with gap
+      / n. Compare the numbers of successes with gap instead, because rounding errors of
+      the rates exclude some pairs
+    one-direction: your code includes only the pairs of results in which the first test
+      has at least gap more successes. The difference can have either sign, so include
+      the opposite pairs as well
+    one-set: your code compares the result of one test with the expected number of
+      successes, n p. The results of both tests are random, so sum over all pairs of
+      results
+    normal: your function uses a normal approximation. Sum the exact binomial
+      probabilities instead, because the approximation is inaccurate for few starts
     half-a-start: your function uses a normal approximation with a continuity
-      correction. Sum the binomial probabilities
+      correction. Sum the exact binomial probabilities instead
     half-a-start 2: your function uses a normal approximation with a continuity
-      correction, unless the gap is 0. Sum the binomial probabilities
-    one-direction-doubled: your function doubles the sum over one direction. For the
-      gap 0 this adds each pair of equal numbers twice
-    sum-of-both: your code uses the distribution of the sum of the two numbers. Use
-      the distribution of their difference
-    exactly: your function adds only the pairs with exactly this gap. Include the
-      pairs with a larger difference
+      correction, unless gap is 0. Sum the exact binomial probabilities instead
+    one-direction-doubled: your code doubles the sum over one direction. If gap is 0,
+      the doubled sum contains each pair of equal results twice. Include these pairs
+      only once
+    sum-of-both: your code uses the distribution of the sum of the two numbers of
+      successes. Use the distribution of the difference of these numbers instead
+    exactly: your code includes only the pairs of results whose difference is exactly
+      gap. Include the pairs with a larger difference as well
     """
     k = np.arange(n + 1)
     one = pmf(n, p)

@@ -34,40 +34,44 @@ def _(rng):
     }
 )
 def _(p):
-    """uncorrected: your code compares each p-value with 0.05. With m comparisons
-      luck has m chances, so the limits should depend on m
-    bonferroni: your code compares each p-value with 0.05 / m (Bonferroni). In
-      Holm's method the limit of the next p-value is 0.05 / (m - 1), and so on
-    no-stop: your code continues after a p-value that is larger than its limit. Stop
-      there, because all larger p-values are not significant either
-    hochberg: your code starts with the largest p-value (Hochberg's method). Start
-      with the smallest p-value, and stop at the first that is larger than its limit
-    sorted: your result has the order of the sorted p-values. Return the result in
-      the order of the argument
-    benjamini-hochberg: your limits are 0.05 (i + 1) / m (Benjamini and Hochberg).
-      The limits of Holm's method are 0.05 / (m - i)
-    not-equal: your code requires a p-value below its limit. A p-value that is equal
-      to its limit is significant
-    one-later: your limits begin with 0.05 / (m - 1). Compare the smallest p-value with
-      0.05 / m
-    unsorted: your code compares the p-values in the order of the argument. Start with
-      the smallest p-value
-    first-larger: your result includes the first p-value that is larger than its
-      limit. This p-value is not significant
-    wrong-positions: your code does not write the sorted mask back to the positions
-      of the p-values. The entry of the smallest p-value belongs to the position that
-      this p-value has in the argument
-    wrong-positions 2: your code does not write the sorted mask back to the positions
-      of the p-values. The entry of the smallest p-value belongs to the position that
-      this p-value has in the argument
-    limits-reversed: your limits are 0.05 / (i + 1), so the smallest p-value has the
-      limit 0.05. Compare the smallest p-value with 0.05 / m
-    sidak: your limits are 1 - 0.95^(1 / (m - i)) (Sidak), which requires
-      independent tests. The limits of Holm's method are 0.05 / (m - i)
-    indices: your result has the indices of the significant differences. Return a
-      mask
-    negated: your mask is True for the differences that are not significant. Return
-      True for the significant differences
+    """uncorrected: your code compares each of the m p-values with 0.05. The probability
+      of a false positive grows with m, so use the limits 0.05 / m, 0.05 / (m - 1), and
+      so on
+    bonferroni: your code compares each p-value with 0.05 / m (Bonferroni). Use this
+      limit only for the smallest p-value, 0.05 / (m - 1) for the next p-value, and so
+      on
+    no-stop: your code continues after a p-value that is larger than its limit. Stop at
+      this p-value, because all larger p-values are not significant either
+    hochberg: your code starts with the largest p-value (Hochberg's method). Start with
+      the smallest p-value, and stop at the first p-value that is larger than its limit
+    sorted: your code returns the mask in the order of the sorted p-values. Entry i of
+      the result should refer to p-value i of the argument, so undo the sorting
+    benjamini-hochberg: your code uses the method of Benjamini and Hochberg, whose
+      limits are 0.05 / m, 0.10 / m, and so on. Use Holm's limits 0.05 / m, 0.05 / (m -
+      1), and so on
+    not-equal: your code requires each p-value to be smaller than its limit. Include
+      equality, because a p-value that is equal to its limit is significant
+    one-later: your code starts with the limit 0.05 / (m - 1). Compare the smallest
+      p-value with 0.05 / m, the next p-value with 0.05 / (m - 1), and so on
+    unsorted: your code compares the p-values in the order of the argument. Sort the
+      p-values first, and start with the smallest
+    first-larger: your result includes the first p-value that is larger than its limit.
+      Stop before this p-value, because it is not significant
+    wrong-positions: your code reorders the sorted mask in the wrong direction. Write
+      the entry of the smallest p-value to the position of this p-value in the argument,
+      and so on
+    wrong-positions 2: your code reorders the sorted mask in the wrong direction. Write
+      the entry of the smallest p-value to the position of this p-value in the argument,
+      and so on
+    limits-reversed: your code uses the limits in reverse order, so it compares the
+      smallest p-value with 0.05. Compare the smallest p-value with 0.05 / m, and the
+      largest with 0.05
+    sidak: your code uses Sidak's limits, which begin with 1 - 0.95^(1 / m) and require
+      independent tests. Use Holm's limits 0.05 / m, 0.05 / (m - 1), and so on
+    indices: your function returns the indices of the significant differences. Return a
+      Boolean mask with one entry for each p-value instead
+    negated: your mask is True for the differences that are not significant. Return True
+      for the significant differences instead
     """
     m = len(p)
     order = np.argsort(p, kind="stable")

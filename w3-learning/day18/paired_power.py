@@ -89,30 +89,36 @@ def chosen_from_all(win, lose, n, level):
 
 @row.wrongs
 def _(win, lose, n, level):
-    """all-pairs-differ: your code lets the policies differ on all n starts. The
-      number of starts that differ is random, so sum over this number
-    expected-number: your code uses the expected number of starts that differ,
-      rounded. This number is random, so sum over all possible numbers
-    first-only: your function includes a reported difference only if the first
-      policy has more wins. Include both directions
-    one-sided: your code uses a one-sided p-value. Use both tails, as `sign_test`
-      does
-    independent: your code draws the numbers of wins and of losses independently. A
-      start cannot be a win and a loss, so draw the starts that differ first
-    win-as-share: your code draws the wins among d starts with the probability win.
-      On a start that differs, the probability is win / (win + lose)
-    fair-share: your code draws the wins among d starts with the probability 1/2, as
-      if both policies were equally good. Use win / (win + lose)
-    normal: your code uses a normal approximation of the p-value. Use the exact
-      p-value of `sign_test`
+    """all-pairs-differ: your code assumes that the policies differ on all n starts. The
+      number of differing starts is random, so sum over all possible values of this
+      number
+    expected-number: your code uses only the rounded expected number of differing
+      starts. The number of differing starts is random, so sum over all possible values
+      of this number
+    first-only: your code includes a reported difference only if the first policy has
+      more wins. The sign test is two-sided, so include reported differences in both
+      directions
+    one-sided: your code uses a one-sided p-value. Use the two-sided p-value of
+      `sign_test` instead
+    independent: your code treats the numbers of wins and losses as independent. A start
+      cannot be both a win and a loss, so sum over the number of differing starts and
+      over the wins among these starts
+    win-as-share: your code uses win as the probability of a win on a differing start.
+      Given that the start differs, this probability should be win / (win + lose)
+    fair-share: your code uses 1/2 as the probability of a win on a differing start, as
+      if both policies were equally good. Use win / (win + lose) instead
+    normal: your code uses a normal approximation of the p-value. Use the exact p-value
+      of `sign_test` instead
     normal-power: your function uses a normal approximation of the power. Sum the
-      probabilities of all numbers of wins and losses
-    level-fixed: your code compares the p-value with 0.05. Compare it with the
-      argument level
-    equal-numbers: your code gives each number of starts that differ the same
-      probability. This number has a binomial distribution with n trials
-    chosen-from-all: your code chooses the losses from all n starts. Choose them from
-      the starts that are not wins, because a start cannot be both
+      probabilities of all numbers of wins and losses for which the p-value is at most
+      level
+    level-fixed: your code compares the p-value with 0.05. Compare the p-value with the
+      argument level instead
+    equal-numbers: your code assigns the same probability to every possible number of
+      differing starts. The number of differing starts has a binomial distribution with
+      n trials
+    chosen-from-all: your code chooses the losses from all n starts. Choose the losses
+      from the starts that are not wins, because a start cannot be both a win and a loss
     """
     differ = win + lose
     share = win / differ if differ else 0.0

@@ -70,47 +70,54 @@ def upto(k, d):
 
 @row.wrongs
 def _(first, second):
-    """strict: your function adds only the splits that are more uneven than the
-      observed split. Include the observed split, which is at least as uneven
-    strict 2: your function adds only the splits that are more uneven than the
-      observed split, unless this split is even. Include the observed split
-    wins-only: your sum ends at the number of wins, even if there are fewer losses.
-      End it at the smaller of both numbers
-    four-times: your p-value is four times the probability of one tail. It should be
-      twice this probability, because there are two tails
-    zero-if-none: your p-value is 0 if the policies differ on no start. No start shows
-      a difference in this case, so return 1
-    every-win: your code counts each start on which the policies differ as a win. If
-      only the second policy succeeds, the start is a loss
-    one-sided: your test is one-sided. A split in favour of the other policy is as
-      uneven, so add both tails
-    first-better: your function computes the probability that the first policy has
-      at least so many wins. The test is two-sided, so add the other tail
-    not-capped: your p-value is above 1 for an even split, because both tails
-      contain this split. Return at most 1
-    all-starts: your binomial distribution has all n starts. Omit the starts on
-      which both policies succeed or both fail
-    agreement: your function treats each start on which both policies succeed or
-      both fail as half a win. Omit these starts
-    agreement 2: your code gives half of the starts on which both policies succeed or
-      both fail to each policy. Omit these starts
-    both-win: your code counts each start on which both policies succeed or both fail
-      as a win and as a loss. Omit these starts
+    """strict: your code sums only the probabilities of splits that are more uneven than
+      the observed split. Include the observed split, because the p-value covers all
+      splits that are at least as uneven
+    strict 2: your code sums only the probabilities of splits that are more uneven than
+      the observed split, unless the observed split is even. Always include the observed
+      split
+    wins-only: your code sums the probabilities up to the number of wins, even if there
+      are fewer losses. Sum up to the smaller of the two numbers instead
+    four-times: your p-value is four times the probability of one tail. Use twice this
+      probability instead, because there are two tails
+    zero-if-none: your p-value is 0 if the policies differ on no start. In this case
+      there is no evidence of a difference, so return 1
+    every-win: your code treats each start on which the policies differ as a win of the
+      first policy. If only the second policy succeeds, the start should be a loss
+    one-sided: your test is one-sided. An equally uneven split in favour of the other
+      policy is as extreme, so add the probabilities of both tails
+    first-better: your function returns the probability that the first policy has at
+      least the observed number of wins. The test is two-sided, so return twice the
+      smaller tail, and at most 1
+    not-capped: your p-value is above 1 for an even split, because both tails include
+      the even split. Limit the p-value to 1
+    all-starts: your code uses n trials in the binomial distribution, one for each
+      start. Use only the starts on which exactly one policy succeeds
+    agreement: your code treats each start on which both policies succeed or both fail
+      as half a win. Omit these starts, because such a start favours neither policy
+    agreement 2: your code treats half of the starts on which both policies succeed or
+      both fail as wins, and half as losses. Omit these starts, because such a start
+      favours neither policy
+    both-win: your code treats each start on which both policies succeed or both fail as
+      a win and as a loss. Omit these starts, because such a start favours neither
+      policy
     one-split: your p-value is twice the probability of the observed split alone.
-      Include all splits that are more uneven
-    mid-p: your p-value contains only half of the probability of the observed split
-      (the mid-p-value). Include all of this probability
-    all-successes: your code compares the numbers of all successes of both policies.
-      Omit the starts on which both policies succeed
-    chi-squared: your function uses the chi-squared approximation of McNemar's test.
-      Sum the binomial probabilities, because the approximation is poor for few
-      starts
-    continuity: your function uses the chi-squared approximation of McNemar's test
-      with a continuity correction. Sum the binomial probabilities
-    paired-z: your function divides the mean difference by its standard error and
-      uses the normal distribution. Sum the binomial probabilities, which are exact
+      Include the probabilities of all splits that are more uneven as well
+    mid-p: your p-value includes only half of the probability of the observed split (the
+      mid-p-value). Include this probability in full
+    all-successes: your code compares the total numbers of successes of the two
+      policies. Omit the starts on which both policies succeed, because such a start
+      favours neither policy
+    chi-squared: your function uses the chi-squared approximation of McNemar's test. Sum
+      the exact binomial probabilities instead, because the approximation is inaccurate
+      for few starts
+    continuity: your function uses the chi-squared approximation of McNemar's test with
+      a continuity correction. Sum the exact binomial probabilities instead
+    paired-z: your function divides the mean difference by its standard error and uses
+      the normal distribution (a z-test). Sum the exact binomial probabilities instead
     unpaired: your function compares the two success rates as if the policies had
-      different starts. Use the starts on which the policies differ
+      different starts. Both policies have the same starts, so use the starts on which
+      exactly one policy succeeds
     """
     win, lose = int(np.sum(first & ~second)), int(np.sum(second & ~first))
     d, n, k = win + lose, len(first), min(win, lose)

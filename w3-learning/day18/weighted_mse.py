@@ -33,28 +33,33 @@ row.cases(
 
 @row.wrongs
 def _(pred, target, weight):
-    """mean: your code divides by the number of rows. Divide by the sum of the
-      weights, so that doubled weights give the same loss
-    summed: your code does not divide by the sum of the weights. The loss is a
-      weighted mean, so doubled weights should give the same loss
-    summed-over-columns: your code sums the squares over the columns. Take the mean
-      over the columns, as `mse` does
-    weight-squared: your code multiplies the error by the weight before the square.
-      Multiply the squared error by the weight
-    unweighted: your code ignores the weights
-    gradient-unweighted: your gradient ignores the weights. The derivative of w e^2
-      is 2 w e
-    gradient-not-divided: your gradient is 2 w e. The loss is divided by the sum of
-      the weights and by the number of columns, so divide the gradient by both
-    gradient-mean: your code divides the gradient by the number of rows. The loss is
-      divided by the sum of the weights, so divide the gradient by this sum
-    absolute: your code uses the absolute value of each error. Square the errors
+    """mean: your code divides by the number of rows. Divide by the sum of the weights
+      instead, so that doubling all weights does not change the loss
+    summed: your code does not divide by the sum of the weights. The loss is a weighted
+      mean, so divide both the loss and the gradient by this sum
+    summed-over-columns: your code sums the squared errors over the columns. Take the
+      mean over the columns instead, as `mse` does
+    weight-squared: your code multiplies each error by its weight before squaring.
+      Square the error first, and then multiply the squared error by the weight
+    unweighted: your code ignores the weights. Multiply the mean squared error of each
+      row by its weight, and divide the sum over the rows by the sum of the weights
+    gradient-unweighted: your gradient ignores the weights. Multiply each row of the
+      gradient by its weight, and divide by the sum of the weights instead of the number
+      of rows
+    gradient-not-divided: your gradient is 2 w e, where w is the weight and e is the
+      error. Divide this product by the sum of the weights and by the number of columns,
+      as in the loss
+    gradient-mean: your code divides the gradient by the number of rows. Divide the
+      gradient by the sum of the weights instead, as in the loss
+    absolute: your code uses the absolute value of each error. Use the square of each
+      error instead
     row-means: your code squares the mean error of each row. Take the mean of the
-      squared errors, because errors of opposite sign cancel in their mean
-    largest-weight: your code divides by the largest weight and by the number of rows.
-      Divide by the sum of the weights
-    weighted-rows: your code divides by the number of rows whose weight is not 0.
-      Divide by the sum of the weights, so that doubled weights give the same loss
+      squared errors instead, because errors of opposite sign cancel in the mean error
+    largest-weight: your code divides by the product of the largest weight and the
+      number of rows. Divide by the sum of the weights instead
+    weighted-rows: your code divides by the number of rows whose weight is not 0. Divide
+      by the sum of the weights instead, so that doubling all weights does not change
+      the loss
     """
     e = pred - target
     n, m = e.shape

@@ -24,12 +24,14 @@ row.cases(
 
 @row.wrongs
 def _(spacing, sigma):
-    """in-pixels: your error is in pixels. Multiply it by the spacing, so that it has
-      the unit of the arguments
-    amplitude-of-the-sum: your result is the first term of Poisson's sum, 2 exp(...).
-      The error of the centroid is sigma^2 times the derivative of the sum
-    twice-the-first-frequency: your exponent belongs to the second frequency of
-      Poisson's sum. The first one has a period of one pixel
+    """in-pixels: your function returns the error in pixels. Multiply this error by the
+      spacing, so that the result has the unit of the arguments
+    amplitude-of-the-sum: your code uses the amplitude of the first term of Poisson's
+      sum as the error. The error is sigma^2 times the derivative of this sum with
+      respect to the position
+    twice-the-first-frequency: your code uses the exponent of the second frequency of
+      Poisson's sum. Use the exponent of the first frequency, which has a period of one
+      pixel
     """
     r = sigma / spacing
     decay = np.exp(-2 * np.pi**2 * r**2)

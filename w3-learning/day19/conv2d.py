@@ -31,14 +31,15 @@ row.cases(
 
 @row.wrongs
 def _(image, kernel, stride):
-    """flipped: your kernel is flipped along both axes, as in the convolution of
-      mathematics. A network computes the cross-correlation, without a flip
-    mean: your outputs are divided by the number of entries of the kernel. Return the
-      sum of the products
-    from-the-end: your last window ends at the edge of the image. The first window
-      should begin at [0, 0], and pixels that are left over are at the end
-    padded: your image is padded with zeros, so the result has outputs for windows that
-      do not lie in the image. Return one output for each window inside the image
+    """flipped: your code flips the kernel along both axes, as in the mathematical
+      convolution. Use the kernel without a flip, because `conv2d` computes the
+      cross-correlation
+    mean: your code divides each output by the number of entries of the kernel. Return
+      the sum of the products without this division
+    from-the-end: your code aligns the last window with the end of the image. Align the
+      first window with pixel [0, 0], so that any unused pixels are at the end
+    padded: your code pads the image with zeros, so it includes windows that extend
+      beyond the image. Return one output for each window that lies inside the image
     """
     p, q = kernel.shape
 

@@ -7,8 +7,8 @@ from labkit.judge import Matrix, Row
 from .images import pairs
 
 row = Row((
-    Matrix((None, None), called="the gradient of the kernel"),
-    Matrix((None, None), called="the gradient of the image"),
+    Matrix((None, None), called="the gradient with respect to the kernel"),
+    Matrix((None, None), called="the gradient with respect to the image"),
 ))  # fmt: skip
 
 
@@ -55,14 +55,17 @@ def of_image(image, kernel, stride, d, added=True):
 
 @row.wrongs
 def _(image, kernel, stride, d):
-    """kernel-flipped: your gradient of the kernel is flipped along both axes. `conv2d`
-      does not flip the kernel, so entry [a, b] belongs to pixel [a, b] of each window
-    image-by-flipped: your gradient of the image uses the flipped kernel. The window of
-      output [i, j] receives d[i, j] times the kernel as it is
-    overwritten: in your code, a window replaces what an earlier window wrote. A pixel
-      that lies in several windows receives the sum of their gradients
-    divided: your gradients are divided by the number of outputs. d is the gradient of
-      the loss already, so sum over the outputs
+    """kernel-flipped: your code flips the gradient with respect to the kernel along
+      both axes. Entry [a, b] of this gradient should be the sum of d times pixel [a, b]
+      of each window
+    image-by-flipped: your code uses the flipped kernel for the gradient with respect to
+      the image. Add d[i, j] times the kernel, without a flip, to the window of output
+      [i, j]
+    overwritten: your code overwrites the gradient with respect to the image where
+      windows overlap. Add the contributions of all windows that contain a pixel instead
+    divided: your code divides both gradients by the number of outputs. The argument d
+      is already the gradient of the loss with respect to the output, so omit this
+      division
     """
     of_kernel = np.einsum("ijab,ij->ab", windows(image, kernel, stride), d)
     right = of_image(image, kernel, stride, d)

@@ -23,13 +23,13 @@ row.cases(
 
 @row.wrongs
 def _(sigma, half):
-    """not-normalised: your kernel is 1 in the middle. Divide by the sum of all entries,
-      so that a blurred image is as bright as before
-    by-the-integral: your kernel is divided by 2 pi sigma^2, the integral of the
-      Gaussian. The sum over pixels differs from the integral, so divide by the sum of
-      the entries
-    rows-normalised: each row of your kernel has the sum 1. All entries together should
-      have the sum 1
+    """not-normalised: your code does not normalise the kernel. Divide all entries by
+      their sum, so that the blur does not change the brightness of the image
+    by-the-integral: your code divides the kernel by 2 pi sigma^2, the integral of the
+      Gaussian. The sum over the pixels differs from this integral, so divide by the sum
+      of the entries instead
+    rows-normalised: your code normalises each row of the kernel separately. All entries
+      of the kernel together should sum to 1, so divide by the sum of the whole kernel
     """
     at = np.arange(-half, half + 1)
     d2 = at**2 + at[:, None] ** 2

@@ -35,14 +35,15 @@ row.cases(
 
 @row.wrongs
 def _(centres, radii, xs, ys):
-    """added: in your code, the heights of several spheres are added. A ray from above
-      stops at the highest of them
-    flat: your spheres are as high at their edge as in the middle. At the distance d
-      from the centre, the height is sqrt(r^2 - d^2)
-    cone: your heights are r - d, a cone. The surface is a sphere, so r is the
-      hypotenuse of a right triangle with the sides d and height
-    last-wins: in your code, a later sphere replaces an earlier one also where the later
-      one is lower. A ray from above stops at the highest sphere
+    """added: your code adds the heights of several spheres at the same pixel. A ray
+      from above stops at the highest sphere, so use the largest height
+    flat: your code uses the radius r as the height of the whole sphere. At the
+      horizontal distance d from the centre, the height is sqrt(r^2 - d^2)
+    cone: your heights are r - d, which describes a cone. The surface is a sphere, so r
+      is the hypotenuse of a right triangle whose legs are d and the height
+    last-wins: your code replaces the height of an earlier sphere even where the later
+      sphere is lower. A ray from above stops at the highest sphere, so use the largest
+      height
     """
     dx = xs - centres[:, 0, None, None]
     dy = ys[:, None] - centres[:, 1, None, None]

@@ -30,14 +30,14 @@ row.cases(
 
 @row.wrongs
 def _(images, action, k):
-    """action-not-turned: your images rotate and your action does not. The action is a
-      velocity in the same plane, so it rotates with the scene
-    action-the-other-way: your action rotates from y towards x. Like the scene, it
-      should rotate from x towards y
-    image-the-other-way: your images rotate from y towards x. The rows of an image go
-      along increasing y, so np.rot90 with a positive k rotates them this way
-    mirrored: your images are mirrored instead of rotated. Mirrored and rotated images
-      differ by one flip
+    """action-not-turned: your code rotates the images, but not the action. The action
+      is a velocity in the same plane, so rotate the action with the scene
+    action-the-other-way: your code rotates the action from y towards x. Rotate the
+      action from x towards y instead, in the same direction as the scene
+    image-the-other-way: your code rotates the images from y towards x. The row index
+      increases with y, so np.rot90 needs -k to rotate the images from x towards y
+    mirrored: your code mirrors the images instead of rotating them. A mirrored image
+      differs from a rotated image by a flip along one axis, so add this flip
     """
     right = np.rot90(images, -k, (1, 2))
     x, y = action

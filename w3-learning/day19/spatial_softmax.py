@@ -25,17 +25,17 @@ row = Row(
     held_out=[
         HeldOut(
             "overflows",
-            "Your function is right for small entries. For large ones exp overflows "
-            "or all weights are 0, and the result is NaN. Subtract the largest entry "
-            "of each map before exp: the weights do not change.",
+            "Your function is right for small entries. For large entries, exp "
+            "overflows or all weights are 0, so your result is NaN. Subtract the "
+            "largest entry of each map before exp: the weights do not change.",
             large_maps,
         ),
         HeldOut(
             "imaginary-lost",
             "Your function is right for real maps, but it loses the imaginary part of "
-            "complex ones. The lab tests your gradient with the complex step, so use "
-            "operations that keep it: no float(), .real or np.maximum, and no array of "
-            "floats that you fill.",
+            "complex maps. The lab tests your gradient with the complex step, so use "
+            "operations that keep the imaginary part: no float(), .real or np.maximum, "
+            "and no array of floats that you fill.",
             complex_maps,
         ),
     ],
@@ -63,14 +63,15 @@ row.cases(
 
 @row.wrongs
 def _(maps, xs, ys, temperature):
-    """rows-only: your weights have the sum 1 in each row. All weights of a map together
-      should have the sum 1
-    maps-together: your weights have the sum 1 over all maps together. Each map is a
-      channel of its own, so its weights should have the sum 1
-    argmax: your function returns the position of the largest entry. Its gradient is 0
-      almost everywhere, so return the expected position
-    x-y-swapped: your result is (y, x). Return x first. The pixel [i, j] is at (xs[j],
-      ys[i])
+    """rows-only: your weights sum to 1 in each row of a map. All weights of a map
+      together should sum to 1, so divide by the sum over the rows and columns
+    maps-together: your weights sum to 1 over all maps together. Each map is a separate
+      channel, so the weights of each map should sum to 1
+    argmax: your function returns the position of the largest entry. Return the expected
+      position instead, because the gradient of the largest entry's position is 0 almost
+      everywhere
+    x-y-swapped: your result is (y, x). Return x first, where pixel [i, j] is at x =
+      xs[j] and y = ys[i]
     """
     z = maps / temperature
     most = z.max(axis=(1, 2), keepdims=True)

@@ -26,14 +26,15 @@ row.cases(
 
 @row.wrongs
 def _(maps, xs, ys, temperature, d):
-    """mean-not-taken-off: in your code, the expected value is not subtracted. If one
-      weight grows, the others shrink, so only the difference from the expected value
-      counts
-    temperature-forgotten: your gradient is not divided by the temperature. The maps are
-      divided by it before the softmax, so the chain rule gives the factor 1 /
-      temperature
-    p-1-minus-p: your gradient is p (1 - p) times the position. This is the derivative
-      of a weight with respect to its own entry; the other weights change as well
+    """mean-not-taken-off: your code does not subtract the expected value of d_x x + d_y
+      y, where (d_x, d_y) is the map's row of d. Subtract this value, because a larger
+      map entry reduces all other weights
+    temperature-forgotten: your code does not divide the gradient by the temperature.
+      The maps are divided by the temperature before the softmax, so the chain rule
+      gives the factor 1 / temperature
+    p-1-minus-p: your code uses only the factor p (1 - p), the derivative of a weight p
+      with respect to its own softmax input. The other weights change too, so include
+      their derivatives
     """
     e = np.exp((maps - maps.max(axis=(1, 2), keepdims=True)) / temperature)
     p = e / e.sum(axis=(1, 2), keepdims=True)

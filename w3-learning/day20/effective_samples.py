@@ -21,8 +21,8 @@ row = Row(
         HeldOut(
             "overflows",
             "Your function is right for moderate weights. If exp overflows, or if all "
-            "weights are 0, it returns NaN. Subtract the largest exponent before exp: "
-            "the result does not change.",
+            "weights are 0, it returns NaN. Subtract the largest logp - old_logp "
+            "before exp: the result does not change.",
             far,
         ),
     ],
@@ -41,16 +41,16 @@ def _(rng):
 
 @row.wrongs
 def _(logp, old_logp):
-    """not-squared: your numerator is the sum of the weights. Square it, so that a
-      common factor of all weights changes nothing
-    log-weights: your code uses the logarithms as weights. The weights are exp(logp -
-      old_logp)
-    inverted: your result is sum w^2 / (sum w)^2. The number of samples is the inverse
-      of it
-    share: your result is divided by the number of samples. Return a number, not a
-      fraction
+    """not-squared: your numerator is the sum of the weights. Square this sum, so that a
+      common factor of all weights does not change the result
+    log-weights: your code uses the logarithms of the weights as weights. Use exp(logp -
+      old_logp) instead
+    inverted: your function returns sum w^2 / (sum w)^2. The effective number of samples
+      is the reciprocal, (sum w)^2 / sum w^2
+    share: your code divides the effective number of samples by the number of samples.
+      Return the effective number itself instead of a fraction
     new-only: your weights are exp(logp). The samples were drawn by the old policy, so
-      divide by its probabilities
+      use exp(logp - old_logp) instead
     """
     x = logp - old_logp
     w = np.exp(x)

@@ -70,23 +70,25 @@ def backwards(delta, factor):
 @row.wrongs
 def _(reward, value, next_value, terminated, ended, gamma, lam):
     """cut-off-is-terminated: your code replaces next_value by 0 wherever an episode
-      ended. An episode that was cut off would have continued, so keep next_value there
-    runs-through-ends: your sums continue into the row after an end, which belongs to
-      another episode. Drop the advantage of the next row where ended is True
-    runs-through-cut-offs: your sums stop at true ends only. The row after a cut-off
-      belongs to another episode as well, so use ended
-    end-one-late: your sums stop one row too early or too late. Drop the advantage of
-      row t + 1 where ended is True in row t
-    never-terminated: your code uses next_value after a true end as well. Where
-      terminated is True, the state after the step is worth 0
-    next-rows-value: your code uses the value of the next row instead of next_value. At
-      an end the next row is the first state of another episode
-    lambda-forgotten: your sum lacks the factor lam. The advantage of the next row has
-      the factor gamma lam
-    gamma-not-in-the-sum: your sum has the factor lam only. The advantage of the next
-      row has the factor gamma lam
+      ended. Keep next_value where an episode was cut off, because this episode would
+      have continued
+    runs-through-ends: your code continues the sum into the row after an end, which
+      belongs to another episode. Omit the advantage of the next row where ended is True
+    runs-through-cut-offs: your code stops the sum at true ends only. The row after a
+      cut-off belongs to another episode as well, so stop the sum wherever ended is True
+    end-one-late: your code applies the flag ended to the wrong row. Omit the advantage
+      of row t + 1 from the sum where ended is True in row t
+    never-terminated: your code uses next_value after a true end as well. Replace
+      next_value by 0 where terminated is True, because the state after the step is
+      worth 0
+    next-rows-value: your code uses the value of the next row instead of next_value. Use
+      next_value, because the row after an end belongs to another episode
+    lambda-forgotten: your code multiplies the advantage of the next row by gamma only.
+      Multiply this advantage by gamma * lam instead
+    gamma-not-in-the-sum: your code multiplies the advantage of the next row by lam
+      only. Multiply this advantage by gamma * lam instead
     targets-returned: your function returns the advantage plus the value, which is the
-      target of the value function. Return the advantage
+      target of the value function. Return the advantage alone
     """
     worth = np.where(terminated, 0, next_value)
     delta = reward + gamma * worth - value

@@ -26,18 +26,22 @@ row.cases(
 
 @row.wrongs
 def _(action, mean, log_std):
-    """determinant-forgotten: your result lacks the term -log_std of each entry. A wide
-      Gaussian has a lower density, because its integral is 1
+    """determinant-forgotten: your code omits the term -log_std of each entry. This term
+      is needed because the integral of the density must be 1, so a wide Gaussian has a
+      lower density
     log-std-as-std: your code uses log_std as the standard deviation. Use exp(log_std)
-    half-forgotten: your exponent lacks the factor 1/2
-    averaged: your result is the mean over the entries. The entries are independent, so
-      the density is a product, and its logarithm is a sum
-    not-squared: your code uses |z| instead of z^2. The exponent of a Gaussian is -z^2/2
-    prob: your result is the density. Return its logarithm
-    constant-once: your result has the term -ln(2 pi)/2 once. Each of the entries has
-      this term
-    variance: your code divides by the variance before the square. Divide by the
-      standard deviation, and then square
+      instead
+    half-forgotten: your code omits the factor 1/2 in the exponent. The exponent of a
+      Gaussian is -z^2 / 2, where z = (action - mean) / std
+    averaged: your code takes the mean over the entries of each action. The entries are
+      independent, so sum the log-probabilities of the entries instead
+    not-squared: your code uses |z| instead of z^2, where z = (action - mean) / std. The
+      exponent of a Gaussian is -z^2 / 2
+    prob: your function returns the density. Return the logarithm of the density instead
+    constant-once: your code includes the term -ln(2 pi) / 2 only once. Add this term
+      for each of the m entries of an action
+    variance: your code divides action - mean by the variance before squaring. Divide
+      action - mean by the standard deviation instead, and then square
     """
     std = np.exp(log_std)
     z = (action - mean) / std

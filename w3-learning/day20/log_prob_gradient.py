@@ -7,8 +7,8 @@ from labkit.judge import Matrix, Row
 from .actions import gaussians
 
 row = Row((
-    Matrix((None, None), called="the gradient of the mean"),
-    Matrix((None, None), called="the gradient of log_std"),
+    Matrix((None, None), called="the gradient with respect to the mean"),
+    Matrix((None, None), called="the gradient with respect to log_std"),
 ))  # fmt: skip
 
 
@@ -25,16 +25,18 @@ row.cases(
 
 @row.wrongs
 def _(action, mean, log_std):
-    """not-divided-again: your gradient of the mean is z. The derivative of -z^2/2 with
-      respect to the mean is z / std, because z itself is divided by std
-    by-the-action: your gradient of the mean has the wrong sign, as the derivative with
-      respect to the action has. A higher mean makes a high action more likely
-    by-std: your second gradient is with respect to std. With respect to log_std it is
-      std times as large
-    determinant-forgotten: your gradient of log_std is z^2. The term -log_std of the
-      log-probability has the derivative -1
-    half: your gradient of log_std has z^2/2. The derivative of -z^2/2 with respect to
-      log_std is z^2
+    """not-divided-again: your gradient with respect to the mean is z = (action - mean)
+      / std. Divide z by std, because the derivative of z with respect to the mean is -1
+      / std
+    by-the-action: your gradient with respect to the mean has the wrong sign: your
+      result is the derivative with respect to the action. If the action is above the
+      mean, raising the mean makes this action more likely
+    by-std: your second gradient is the gradient with respect to std. Multiply this
+      gradient by std to obtain the gradient with respect to log_std
+    determinant-forgotten: your gradient with respect to log_std is z^2. Subtract 1,
+      because the log-probability contains the term -log_std, whose derivative is -1
+    half: your gradient with respect to log_std contains z^2 / 2. Use z^2 instead,
+      because the derivative of -z^2 / 2 with respect to log_std is z^2
     """
     std = np.exp(log_std)
     z = (action - mean) / std

@@ -26,19 +26,24 @@ row.cases(
 
 @row.wrongs
 def _(K, std, A, B, Q, R, S, T):
-    """noise-not-propagated: in your code, the noise does not move the state. Add std^2
-      B B^T to E[x x^T] in each step
-    noise-costs-nothing: your cost omits the noise of the input itself. Each step costs
-      std^2 tr(R) in addition
-    control-free: your cost omits K^T R K, the cost of the mean input
-    one-step-more: your sum also contains the state after the last step
-    without-the-start: your sum begins with the state after the first step. Begin with S
-    sign-of-K: your closed loop is A + B K. The policy is u = -K x, so it is A - B K
-    noise-once: your cost contains the noise of the input once. Each of the T steps has
-      its own noise
-    transposed: your E[x x^T] is multiplied by M^T X M. The new state is M x, so use M X
-      M^T
-    std-not-squared: your code uses std where the variance std^2 belongs
+    """noise-not-propagated: your code omits the effect of the noise on the state. Add
+      std^2 B B^T to E[x x^T] in each step
+    noise-costs-nothing: your code omits the cost of the noise in the input. Add std^2
+      tr(R) to the cost in each step
+    control-free: your code omits K^T R K, the cost of the mean input. Multiply E[x x^T]
+      by Q + K^T R K instead of Q
+    one-step-more: your code adds the cost of the state after the last step as well. Add
+      only the costs of the T states before the steps
+    without-the-start: your sum begins with the state after the first step. Begin with
+      the state at the start, whose matrix E[x x^T] is S
+    sign-of-K: your code uses A + B K as the closed-loop matrix. Use A - B K instead,
+      because the mean input is u = -K x
+    noise-once: your code adds the cost of the noise in the input only once. Add std^2
+      tr(R) in each of the T steps
+    transposed: your code computes the next X = E[x x^T] with M^T X M, where M = A - B
+      K. The mean of the next state is M x, so use M X M^T instead
+    std-not-squared: your code uses std instead of the variance std^2. Use std^2 B B^T
+      in E[x x^T] and std^2 tr(R) in the cost of each step
     """
     weight = Q + K.T @ R @ K
     X = moments(K, std, A, B, S, T)

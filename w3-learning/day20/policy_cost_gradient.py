@@ -35,19 +35,24 @@ def costs_to_go(K, A, B, Q, R, T):
 
 @row.wrongs
 def _(K, std, A, B, Q, R, S, T):
-    """P-one-late: your code uses the cost-to-go before the step. The input of a step
-      changes the next state, so use the P after the step
-    two-forgotten: your gradient lacks the factor 2 of the derivative of a square
-    moments-forgotten: your gradient lacks E[x x^T]. The gain acts on the state, so each
-      step's part is multiplied by it
-    future-forgotten: your gradient has the term R K only. The input of a step also
-      changes the states that follow
-    noise-forgotten: your E[x x^T] lacks the noise. Add std^2 B B^T in each step, as in
-      `policy_cost`
-    start-only: your code uses S in every step. Use E[x x^T] of each step
-    return-sign: your gradient has the wrong sign. It belongs to the cost, not to the
-      return
-    effort-forgotten: your P lacks K^T R K, the cost of the mean input
+    """P-one-late: your code uses the cost-to-go matrix P before the step. Use the
+      cost-to-go matrix after the step, because the input of a step changes the next
+      state
+    two-forgotten: your code omits the factor 2. Multiply the gradient by 2, because the
+      cost of each step is quadratic in the input
+    moments-forgotten: your code omits E[x x^T]. The gain multiplies the state, so
+      multiply the contribution of each step by E[x x^T] of this step
+    future-forgotten: your gradient contains only the cost of the input, R K. The input
+      of a step also changes the next state, so include the derivative of the cost-to-go
+      after the step
+    noise-forgotten: your code omits the noise in E[x x^T]. Add std^2 B B^T to E[x x^T]
+      in each step, as in `policy_cost`
+    start-only: your code uses S in every step. S is E[x x^T] at the start only, so
+      compute E[x x^T] before each step
+    return-sign: your gradient has the wrong sign. Return the gradient of the cost,
+      which is minus the gradient of the return
+    effort-forgotten: your cost-to-go matrix P omits K^T R K, the cost of the mean
+      input. Add K^T R K to Q when you compute P
     """
     M = A - B @ K
     P = costs_to_go(K, A, B, Q, R, T)

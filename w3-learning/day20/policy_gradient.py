@@ -22,18 +22,19 @@ row.cases(
 
 @row.wrongs
 def _(score, advantage):
-    """mean-over-steps: your estimate is divided by the number of steps as well. The
-      gradient of the return is a sum over the steps
-    summed-over-episodes: your estimate is the sum over the episodes. Divide it by the
-      number of episodes
-    sums-multiplied: your code multiplies the summed scores by the summed advantages.
-      Multiply each score by the advantage of its own step
-    first-advantage: your code uses the advantage of the first step for all steps. Each
-      score has the advantage of its own step
-    sign: your estimate has the wrong sign. A step in its direction should increase the
-      return
-    baseline-inside: your code subtracts the mean of the advantages. The caller does
-      this if it wants to, so use the advantages as they are
+    """mean-over-steps: your code divides the estimate by the number of steps as well.
+      Omit this division, because the gradient of the return is a sum over the steps
+    summed-over-episodes: your code sums over the episodes. Divide the sum by the number
+      of episodes, because the estimate is a mean over the episodes
+    sums-multiplied: your code multiplies the sum of the scores by the sum of the
+      advantages. Multiply each score by the advantage of its own step, and then sum the
+      products
+    first-advantage: your code uses the advantage of the first step for all steps.
+      Multiply each score by the advantage of its own step instead
+    sign: your estimate has the wrong sign. A step in the direction of the estimate
+      should increase the return, so negate the estimate
+    baseline-inside: your code subtracts the mean of the advantages. Use the advantages
+      without this subtraction, because the caller chooses the baseline
     """
     T, n, _ = score.shape
     right = np.einsum("tnd,tn->d", score, advantage) / n

@@ -26,9 +26,9 @@ row = Row(
     held_out=[
         HeldOut(
             "overflows",
-            "Your function is right for moderate ratios. For a very large one exp "
+            "Your function is right for moderate ratios. For a very large ratio, exp "
             "overflows to infinity, and infinity times an advantage of 0 is NaN. Limit "
-            "the exponent before exp.",
+            "logp - old_logp before exp, for example to 600.",
             far,
         ),
     ],
@@ -68,27 +68,34 @@ row.cases(
 
 @row.wrongs
 def _(logp, old_logp, advantage, clip):
-    """no-clip: your code does not clip. Without it nothing keeps the new policy close
-      to the policy that drew the data
-    always-clipped: your loss uses the clipped ratio only. Use the minimum of both
-      terms, so that a ratio which went in the wrong direction is still pulled back
-    gradient-through-the-clip: your loss is right, but its gradient ignores the clip.
-      Where the clipped term is smaller, the loss does not depend on logp
-    gradient-clipped: your gradient is 0 for all ratios beyond the range. It is 0 only
-      where the clipped term is the smaller one
-    max-for-min: your code uses the maximum of both terms. The minimum is pessimistic:
-      it gives no reward for a ratio that has gone too far
-    ratio-forgotten-in-the-gradient: your gradient is -A / n. The derivative of the
-      ratio with respect to logp is the ratio itself
-    ratio-of-logs: your code uses logp - old_logp, or 1 plus it, as the ratio. The ratio
-      of the probabilities is exp(logp - old_logp)
-    ratio-inverted: your ratio is exp(old_logp - logp). Divide the new probability by
-      the old one
-    clip-above-only: your code clips at 1 + clip only. With a negative advantage, a
-      ratio below 1 - clip has gone far enough as well
-    sign: your loss and gradient have the wrong sign. A loss is minimised, so it is
-      minus the mean
-    summed: your loss is a sum. Divide loss and gradient by the number of actions
+    """no-clip: your code does not clip the ratio. Use the minimum of the clipped and
+      the unclipped term, so that the new policy stays close to the policy that drew the
+      actions
+    always-clipped: your loss uses only the clipped ratio. Use the minimum of the
+      clipped and the unclipped term, so that a ratio that has moved in the wrong
+      direction is still corrected
+    gradient-through-the-clip: your loss is right, but your gradient ignores the
+      clipping. Set the gradient to 0 where the clipped term is smaller, because the
+      loss does not depend on logp at these entries
+    gradient-clipped: your gradient is 0 for all ratios outside the range. Set the
+      gradient to 0 only where the clipped term is smaller than the unclipped term
+    max-for-min: your code uses the maximum of the clipped and the unclipped term. Use
+      the minimum instead, so that a ratio that has already moved too far gives no
+      further improvement
+    ratio-forgotten-in-the-gradient: your gradient is -advantage / n. Multiply this
+      gradient by the ratio, because the derivative of the ratio with respect to logp is
+      the ratio itself
+    ratio-of-logs: your code uses logp - old_logp, or this difference plus 1, as the
+      ratio. Use the ratio of the probabilities, exp(logp - old_logp), instead
+    ratio-inverted: your ratio is exp(old_logp - logp). Use exp(logp - old_logp)
+      instead, which is the new probability density divided by the old probability
+      density
+    clip-above-only: your code clips the ratio at 1 + clip only. Clip the ratio at 1 -
+      clip as well, because a negative advantage makes the ratio smaller
+    sign: your loss and gradient have the wrong sign. A loss is minimised, so negate
+      both the loss and the gradient
+    summed: your loss is the sum over the actions. Divide the loss and the gradient by
+      the number of actions
     """
     n = len(logp)
 

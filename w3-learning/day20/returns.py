@@ -41,19 +41,23 @@ def powers(reward, gamma, last, first=0):
 
 @row.wrongs
 def _(reward, gamma, last):
-    """from-the-start: your sums run from the first step up to each step. The return of
-      a step consists of its own reward and of the rewards that follow
-    last-forgotten: your returns omit `last`, the value of the state after the last step
-    last-not-discounted: your code adds `last` to the last return without gamma. It is
-      one step later than the last reward
-    discount-by-time: your code discounts each reward by its time since the start. The
-      return of step t discounts the reward of step k by gamma^(k - t)
-    own-reward-discounted: your code multiplies the own reward of a step by gamma as
-      well. The first term of the sum has the factor 1
-    whole: every row of your result is the return of the whole episode. The return of a
-      step omits the rewards before it
-    last-as-reward: in your code, `last` replaces the last reward. Add gamma times
-      `last` to it
+    """from-the-start: your code sums the rewards from the first step up to each step.
+      The return of a step should contain the reward of this step and the later rewards
+      instead
+    last-forgotten: your code omits `last`, the value of the state after the last step.
+      Add `last` with the factor gamma^(T - t) to the return of step t
+    last-not-discounted: your code adds `last` to the last reward without the factor
+      gamma. Multiply `last` by gamma, because `last` is the value of the state one step
+      later
+    discount-by-time: your code discounts each reward by its time since the start. In
+      the return of step t, multiply the reward of step k by gamma^(k - t) instead
+    own-reward-discounted: your code multiplies the reward of step t by gamma in the
+      return of step t. Use the factor 1 for this reward, gamma for the next reward, and
+      so on
+    whole: your code assigns the return of the whole episode to every step. Omit the
+      rewards before a step from the return of this step
+    last-as-reward: your code replaces the last reward by `last`. Keep the last reward,
+      and add gamma times `last` to this reward
     """
     T = len(reward)
     g = gamma ** np.arange(T)[:, None]

@@ -23,15 +23,18 @@ row.cases(
 @row.wrongs
 def _(reward, potential, gamma):
     """gamma-forgotten: your code adds the difference of the potentials without gamma.
-      With gamma below 1 the sum then depends on the actions in between
-    sign: your code subtracts the shaping. Moving to a higher potential should give a
-      higher reward
-    gamma-on-the-wrong-one: in your code, the potential before the step has the factor
-      gamma. The potential after the step is one step later, so it has the factor
-    potential-only: your code adds the potential after the step. Subtract the potential
-      before it, so that the sum depends on both ends only
-    gamma-on-both: in your code, both potentials have the factor gamma. Only the
-      potential after the step is one step later
+      Multiply the potential after the step by gamma, so that the discounted return
+      depends on both end potentials only
+    sign: your code subtracts the shaping term. Add this term instead, so that moving to
+      a higher potential increases the reward
+    gamma-on-the-wrong-one: your code multiplies the potential before the step by gamma.
+      Multiply the potential after the step by gamma instead, because this potential is
+      one step later
+    potential-only: your code adds only the potential after the step. Subtract the
+      potential before the step as well, so that intermediate potentials cancel in the
+      discounted return
+    gamma-on-both: your code multiplies both potentials by gamma. Multiply only the
+      potential after the step by gamma, because only this potential is one step later
     """
     before, after = potential[:-1], potential[1:]
     return {
