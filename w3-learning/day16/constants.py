@@ -26,7 +26,7 @@ numbers = Numbers(
 
 
 @numbers.add(
-    "padding of the chunks", "{:.0f} %",
+    "padding of the chunks of 20 demonstrations", "{:.0f} %",
     chunk=between(2.0, 2.2, "K (K - 1) / 2 of the K n entries: (K - 1) / (2 n)"),
     wait=between(0.85, 0.92, "(K - 1) / (2 n), and n grows from 68 to 76 rows"),
     demos=same("each episode has the same padding"),
@@ -57,7 +57,7 @@ def third(wait=LAB.WAIT, updates=LAB.UPDATES, seed=LAB.SEED):
     "KL divergence at the dock, nats", "{:.1f}",
     beta=between(0.0, 0.5, "each nat adds twice as much to the loss, so z collapses"),
     chunk=between(0.4, 0.7, "the early entries show the side, and each has half the weight"),
-    seed=between(0.8, 1.2, "another coin of the same kind", to=2),
+    seed=between(0.8, 1.2, "other coin tosses", to=2),
 )  # fmt: skip
 def dock(beta=LAB.BETA, chunk=LAB.K, seed=LAB.SEED):
     """Return the mean KL divergence of the rows at the dock."""
