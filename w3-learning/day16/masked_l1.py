@@ -75,8 +75,8 @@ def _(pred, target, mask):
       Divide it by m times the sum of the mask instead, which is the number of existing
       errors
     gradient-by-all: your loss is correct, but your code divides the gradient by the
-      number of all errors, including the padding. Divide it by m times the sum of the
-      mask, as in the loss
+      total number of entries, including the padding. Divide it by m times the sum of
+      the mask, as in the loss
     not-0-at-0: your gradient is not 0 where the error is 0. Use 0 as the derivative of
       |e| at 0, as `np.sign` does
     not-0-at-0 2: your gradient is not 0 where the error is 0. Use 0 as the derivative

@@ -52,8 +52,8 @@ def _(x, eps, abar, prev, noise):
       of the negative variance. Use abar / prev instead, because the signal becomes
       weaker from prev to abar
     eps-of-one-step: your code subtracts sqrt(1 - alpha) * eps from x. Use the factor (1
-      - alpha) / sqrt(1 - abar) instead, because eps is the noise of all levels up to
-      abar
+      - alpha) / sqrt(1 - abar) instead, because eps is the total noise in x and not
+      only the noise of this step
     variance-of-prev: your code divides both weights by 1 - prev. Divide them by 1 -
       abar instead, which is the variance of the innovation
     no-fresh-noise: your function returns the mean without fresh noise. Add the given

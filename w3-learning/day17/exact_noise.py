@@ -56,12 +56,12 @@ def _(x, abar, means, sigma, weights):
     data-width-forgotten 3: your code uses the variance 1 - abar in the exponent. Use
       abar * sigma^2 + 1 - abar instead, as in the factor of the result
     x-not-deviation: your code multiplies x by sqrt(1 - abar) divided by the variance.
-      Replace x by its mean deviation from the noisy means, weighted with the
+      Replace x by its mean deviation from the noisy means, weighted by the
       probabilities of the modes given x
-    nearest-mode: your code assigns each row to its nearest mode alone. Return the mean
-      noise over all modes instead, weighted with the probabilities of the modes given x
+    nearest-mode: your code uses only the mode nearest to each row. Return the mean
+      noise over all modes instead, weighted by the probabilities of the modes given x
     nearest-mode 2: your code assigns each row to its most probable mode alone. Return
-      the mean noise over all modes instead, weighted with the probabilities of the
+      the mean noise over all modes instead, weighted by the probabilities of the
       modes given x
     weights-only: your code uses probabilities of the modes that do not depend on x.
       Multiply the weight of each mode by its density at x, and normalise the products

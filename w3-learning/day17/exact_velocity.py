@@ -57,11 +57,11 @@ def _(x, t, means, sigma, weights):
     division-by-0 2: your code divides by t, which is 0 at the start. Use the slope of
       the velocity instead, which is the covariance of x and the velocity divided by the
       variance of x
-    nearest-mode: your code assigns each row to its nearest mode alone. Return the mean
-      velocity over all modes instead, weighted with the probabilities of the modes
+    nearest-mode: your code uses only the mode nearest to each row. Return the mean
+      velocity over all modes instead, weighted by the probabilities of the modes
       given x
     nearest-mode 2: your code assigns each row to its most probable mode alone. Return
-      the mean velocity over all modes instead, weighted with the probabilities of the
+      the mean velocity over all modes instead, weighted by the probabilities of the
       modes given x
     weights-only: your code uses probabilities of the modes that do not depend on x.
       Multiply the weight of each mode by its density at x, and normalise the products

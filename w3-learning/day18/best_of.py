@@ -36,12 +36,12 @@ def _(rng):
 def _(p, n, k):
     """mean: your function returns the expected success rate of a single policy. Return
       the expected success rate of the best of k policies, which is larger for k > 1
-    any-success: your function returns the probability of at least one success in k
-      trials. Return the expected largest number of successes of the k policies, divided
-      by n
+    any-success: your function returns the probability of at least one success on k
+      starts. Return the expected value of the largest of the k numbers of successes,
+      divided by n
     all-succeed: your function returns the probability that at least one of k policies
-      succeeds on all n starts. Return the expected largest number of successes, divided
-      by n
+      succeeds on all n starts. Return the expected value of the largest of the k
+      numbers of successes, divided by n
     worst: your function returns the expected success rate of the worst policy. The best
       policy has at most s successes with probability F(s)^k, where F is the binomial
       distribution function
@@ -59,8 +59,8 @@ def _(p, n, k):
       successes is s with probability F(s)^k - F(s - 1)^k
     possible-numbers: your code divides by n + 1, the number of possible results of a
       test. Divide by the number of starts, n, instead
-    median: your function returns the median of the largest number of successes, divided
-      by n. Return the expected value of this number, divided by n
+    median: your function returns the median of the largest of the k numbers of
+      successes, divided by n. Return the expected value of this number, divided by n
     normal: your function uses the normal approximation p + sqrt(2 ln(k) p (1 - p) / n).
       Compute the expected value with the exact binomial probabilities instead
     """

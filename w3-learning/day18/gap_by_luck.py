@@ -44,8 +44,8 @@ def _(p, n, gap):
       / n. Compare the numbers of successes with gap instead, because rounding errors of
       the rates exclude some pairs
     one-direction: your code includes only the pairs of results in which the first test
-      has at least gap more successes. The difference can have either sign, so include
-      the opposite pairs as well
+      has more successes than the second, by at least `gap`. The difference can have
+      either sign, so also include the pairs in which the second test has more
     one-set: your code compares the result of one test with the expected number of
       successes, n p. The results of both tests are random, so sum over all pairs of
       results

@@ -98,9 +98,9 @@ def _(first, second):
     agreement 2: your code treats half of the starts on which both policies succeed or
       both fail as wins, and half as losses. Omit these starts, because such a start
       favours neither policy
-    both-win: your code treats each start on which both policies succeed or both fail as
-      a win and as a loss. Omit these starts, because such a start favours neither
-      policy
+    both-win: your code counts each tie twice, once as a win and once as a loss. Omit
+      the starts on which both policies succeed or both fail, because they favour
+      neither policy
     one-split: your p-value is twice the probability of the observed split alone.
       Include the probabilities of all splits that are more uneven as well
     mid-p: your p-value includes only half of the probability of the observed split (the

@@ -29,9 +29,9 @@ def _(spacing, sigma):
     amplitude-of-the-sum: your code uses the amplitude of the first term of Poisson's
       sum as the error. The error is sigma^2 times the derivative of this sum with
       respect to the position
-    twice-the-first-frequency: your code uses the exponent of the second frequency of
-      Poisson's sum. Use the exponent of the first frequency, which has a period of one
-      pixel
+    twice-the-first-frequency: your code uses the exponent of the second term of
+      Poisson's summation formula. Use the exponent of the first term, which has a
+      period of one pixel
     """
     r = sigma / spacing
     decay = np.exp(-2 * np.pi**2 * r**2)

@@ -59,8 +59,8 @@ def _(image, kernel, stride, d):
       both axes. Entry [a, b] of this gradient should be the sum of d times pixel [a, b]
       of each window
     image-by-flipped: your code uses the flipped kernel for the gradient with respect to
-      the image. Add d[i, j] times the kernel, without a flip, to the window of output
-      [i, j]
+      the image. Add d[i, j] times the unflipped kernel to the entries of the gradient
+      in the window of output [i, j]
     overwritten: your code overwrites the gradient with respect to the image where
       windows overlap. Add the contributions of all windows that contain a pixel instead
     divided: your code divides both gradients by the number of outputs. The argument d

@@ -37,8 +37,9 @@ row.cases(
 def _(centres, radii, xs, ys):
     """added: your code adds the heights of several spheres at the same pixel. A ray
       from above stops at the highest sphere, so use the largest height
-    flat: your code uses the radius r as the height of the whole sphere. At the
-      horizontal distance d from the centre, the height is sqrt(r^2 - d^2)
+    flat: your code returns the radius r as the height at every pixel that the sphere
+      covers. At the horizontal distance d from the centre, the height is sqrt(r^2 -
+      d^2)
     cone: your heights are r - d, which describes a cone. The surface is a sphere, so r
       is the hypotenuse of a right triangle whose legs are d and the height
     last-wins: your code replaces the height of an earlier sphere even where the later

@@ -40,8 +40,8 @@ def _(K, std, A, B, Q, R, S, T):
       because the mean input is u = -K x
     noise-once: your code adds the cost of the noise in the input only once. Add std^2
       tr(R) in each of the T steps
-    transposed: your code computes the next X = E[x x^T] with M^T X M, where M = A - B
-      K. The mean of the next state is M x, so use M X M^T instead
+    transposed: your code updates X = E[x x^T] to M^T X M, where M = A - B K. The mean
+      of the next state is M x, so use M X M^T instead
     std-not-squared: your code uses std instead of the variance std^2. Use std^2 B B^T
       in E[x x^T] and std^2 tr(R) in the cost of each step
     """

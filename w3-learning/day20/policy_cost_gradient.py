@@ -35,9 +35,9 @@ def costs_to_go(K, A, B, Q, R, T):
 
 @row.wrongs
 def _(K, std, A, B, Q, R, S, T):
-    """P-one-late: your code uses the cost-to-go matrix P before the step. Use the
-      cost-to-go matrix after the step, because the input of a step changes the next
-      state
+    """P-one-late: your code uses the cost-to-go matrix P of the state before the step.
+      Use the matrix of the state after the step, because the input of a step affects
+      later costs only through the next state
     two-forgotten: your code omits the factor 2. Multiply the gradient by 2, because the
       cost of each step is quadratic in the input
     moments-forgotten: your code omits E[x x^T]. The gain multiplies the state, so
