@@ -107,6 +107,10 @@ def test_the_variances_of_one_step_on_paper():
     ):
         assert lab.one_step_variance(d, b) == pytest.approx(wanted)
         assert f"{words} {wanted:.2f}" in SENTENCES
+    assert "variance $8 d^2 + (k^2 - 6 k + 15) \\sigma^2$" in SENTENCES
+    for k in (0, 1, 2.5, 3, 7):
+        wanted = 8 * d**2 + (k**2 - 6 * k + 15) * s**2
+        assert lab.one_step_variance(d, -(d**2) - k * s**2) == pytest.approx(wanted)
     bs = np.linspace(-3, 1, 401)
     best = bs[np.argmin([lab.one_step_variance(d, b) for b in bs])]
     assert best == pytest.approx(-(d**2) - 3 * s**2, abs=0.01)
