@@ -13,7 +13,6 @@ import mujoco
 import numpy as np
 
 from labkit.base import cli
-from labkit.figures import overlay
 from labkit.figures.scene import Camera
 from labkit.figures.studio import add_shape
 from labkit.inspector.failing import COLOURS, RADII, Drawing, Thing
@@ -88,6 +87,8 @@ def at_ready(model: mujoco.MjModel) -> mujoco.MjData:
 
 def add_call(scene: mujoco.MjvScene, model: mujoco.MjModel, drawing: Drawing) -> None:
     """Add what a failing call was given, and both answers, to what is drawn."""
+    from labkit.figures import overlay  # it needs Pillow, and `--help` does not
+
     for arm in drawing.others:
         first, others = scene.ngeom, mujoco.MjvOption()
         mujoco.mjv_addGeoms(
