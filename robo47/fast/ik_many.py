@@ -37,11 +37,6 @@ class Many:
         self.best = q.copy()
         self.miss = np.full(q.shape[1], np.inf)
 
-    @property
-    def walking(self) -> int:
-        """The number of walkers that have not ended; `make bench` counts the steps."""
-        return self._q.shape[1]
-
     def look(self) -> Array:
         """As in `Walkers`."""
         self._J, self._e = self._errors()
