@@ -5,51 +5,29 @@ make figures DAY=15 ARGS=--clips    figures/day15_copycat.webp
 
 from collections.abc import Iterator
 
-from matplotlib.figure import Figure
-from matplotlib.patches import Circle
+from matplotlib.axes import Axes
 
-from labkit.figures import chart
-from labkit.figures.chart import BLUE, GREY, INK, RED
+from labkit.figures import pushing
+from labkit.figures.chart import BLUE, RED
 from labkit.figures.clip import Frame
+from labkit.figures.pushing import MM
 from labkit.lesson.day import find_day
 
-import day15_mujoco
-
-EVERY = 2  # steps between two frames
-SECONDS = 0.12  # that a frame is seen
 STARTS = (3, 11)  # of the test, one after the other
-MM = 1000.0
+COLOURS = {"clone": BLUE, "copycat": RED}
 
 
 def frames() -> Iterator[Frame]:
     """Yield the clip's frames and how long each is seen."""
-    figures = find_day(15).module("figures")
-    some = figures.learned()
-    for start in STARTS:
-        for k in range(0, day15_mujoco.STEPS + 1, EVERY):
-            last = k + EVERY > day15_mujoco.STEPS
-            yield Frame(_moment(some, start, k)(), 1.2 if last else SECONDS)
+    runs = find_day(15).module("figures").learned().runs
 
+    def draw(axes: Axes, i: int, start: int, k: int) -> None:
+        name, colour = [*COLOURS.items()][i]
+        seen = runs[name].observation[start]
+        axes.plot(*MM * seen[: k + 1, 2:].T, color=colour, linewidth=1.5)
+        pushing.bodies(axes, seen[k], colour)
 
-def _moment(some, start: int, k: int):
-    """Return what draws both runs at a step, side by side."""
-
-    @chart.picture(height=3.4, width=6.4)
-    def both(figure: Figure) -> None:
-        for axes, name, colour in zip(
-            figure.subplots(1, 2), ("clone", "copycat"), (BLUE, RED), strict=True
-        ):
-            seen = MM * some.runs[name].observation[start]
-            axes.add_patch(Circle((0, 0), MM * day15_mujoco.HOME, color="0.85"))
-            axes.plot(*seen[: k + 1, 2:].T, color=colour, linewidth=1.5)
-            axes.add_patch(Circle(seen[k, 2:], MM * day15_mujoco.PUCK, color=colour))
-            axes.add_patch(Circle(seen[k, :2], MM * day15_mujoco.PUSHER, color=INK))
-            axes.set(xlim=(-400, 400), ylim=(-380, 380), aspect="equal")
-            axes.set(title=f"{name}, {k * day15_mujoco.TICK:.1f} s")
-            axes.set(xticks=(), yticks=())
-            axes.spines[:].set_color(GREY)
-
-    return both
+    yield from pushing.film(STARTS, [*COLOURS], draw)
 
 
 CLIPS = {"copycat": frames}

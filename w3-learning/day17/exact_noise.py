@@ -4,38 +4,21 @@ import numpy as np
 
 from labkit.judge import Matrix, Row
 
-from .modes import mixtures, posterior, wrong_probabilities
+from .modes import TWO, asked, cases, posterior, wrong_probabilities
 
 row = Row(
     Matrix((None, None)),
     # The root of 1 - abar has no derivative at 1.
     at_edge=lambda x, abar, means, sigma, weights: abar < 1,
 )
-TWO = np.array([[-1.0], [1]])
 
 
 @row.inputs
 def _(rng):
-    yield np.array([[0.5]]), 0.36, TWO, 0.1, np.array([0.5, 0.5])
-    for x, means, sigma, weights in mixtures(rng):
-        yield x, float(rng.numbers(0.1, 0.9)), means, sigma, weights
-    x, means, sigma, weights = next(mixtures(rng))
-    yield x, 0.0, means, sigma, weights
-    yield x, 1.0, means, sigma, weights
-    yield x, 0.5, means, 0.0, weights
-    yield 40 * x, 0.9, means, sigma, weights  # far from all modes
+    yield from asked(rng, 0.36, 0.9)
 
 
-row.cases(
-    one_mode=lambda x, abar, means, *_: len(means) == 1,
-    several_modes=lambda x, abar, means, *_: len(means) > 1,
-)
-row.cases(
-    equal_weights=lambda *given: bool(np.ptp(given[-1]) == 0),
-    different_weights=lambda *given: bool(np.ptp(given[-1]) > 0),
-)
-
-
+cases(row)
 row.at_least_0(abar="a fraction", sigma="a standard deviation", weights="probabilities")
 
 

@@ -4,34 +4,24 @@ import numpy as np
 
 from labkit.judge import Matrix, Row
 
-from .modes import mixtures, posterior, posterior_of, wrong_probabilities
+from .modes import (
+    TWO,
+    asked,
+    cases,
+    posterior,
+    posterior_of,
+    wrong_probabilities,
+)
 
 row = Row(Matrix((None, None)))
-TWO = np.array([[-1.0], [1]])
 
 
 @row.inputs
 def _(rng):
-    yield np.array([[0.5]]), 0.5, TWO, 0.1, np.array([0.5, 0.5])
-    for x, means, sigma, weights in mixtures(rng):
-        yield x, float(rng.numbers(0.1, 0.9)), means, sigma, weights
-    x, means, sigma, weights = next(mixtures(rng))
-    yield x, 0.0, means, sigma, weights
-    yield x, 1.0, means, sigma, weights
-    yield x, 0.5, means, 0.0, weights
-    yield 40 * x, 0.8, means, sigma, weights  # far from all modes
+    yield from asked(rng, 0.5, 0.8)
 
 
-row.cases(
-    one_mode=lambda x, t, means, *_: len(means) == 1,
-    several_modes=lambda x, t, means, *_: len(means) > 1,
-)
-row.cases(
-    equal_weights=lambda *given: bool(np.ptp(given[-1]) == 0),
-    different_weights=lambda *given: bool(np.ptp(given[-1]) > 0),
-)
-
-
+cases(row)
 row.at_least_0(t="from 0 to 1", sigma="a standard deviation", weights="probabilities")
 
 

@@ -2,6 +2,38 @@
 
 import numpy as np
 
+TWO = np.array([[-1.0], [1]])  # the means of a mixture of two modes
+
+
+def asked(rng, known, far):
+    """Yield questions (x, amount of noise, means, sigma, weights).
+
+    Args:
+        rng: draws the mixtures.
+        known: amount of noise of the call that is checked by hand.
+        far: amount of noise of rows of x far from all modes.
+    """
+    yield np.array([[0.5]]), known, TWO, 0.1, np.array([0.5, 0.5])
+    for x, *mixture in mixtures(rng):
+        yield x, float(rng.numbers(0.1, 0.9)), *mixture
+    x, means, sigma, weights = next(mixtures(rng))
+    yield x, 0.0, means, sigma, weights
+    yield x, 1.0, means, sigma, weights
+    yield x, 0.5, means, 0.0, weights
+    yield 40 * x, far, means, sigma, weights
+
+
+def cases(row):
+    """Name the cases of a row whose calls end with means, sigma, weights."""
+    row.cases(
+        one_mode=lambda *given: len(given[-3]) == 1,
+        several_modes=lambda *given: len(given[-3]) > 1,
+    )
+    row.cases(
+        equal_weights=lambda *given: bool(np.ptp(given[-1]) == 0),
+        different_weights=lambda *given: bool(np.ptp(given[-1]) > 0),
+    )
+
 
 def mixtures(rng):
     """Yield rows of x with means, sigma and weights of a mixture: small, all sizes."""

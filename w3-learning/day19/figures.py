@@ -14,14 +14,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from PIL import Image
 
-from labkit.figures import chart
+from labkit.figures import chart, pushing
 from labkit.figures.chart import BLUE, INK, ORANGE, RED
+from labkit.figures.pushing import MM
 
 import day15_mujoco
 
 SEEN = np.array([[0.13, 0.22, 0.06, 0.27]])  # a scene of the picture: pusher, puck
 OFFSETS = (0.0, 0.005, 0.01, 0.015, 0.02, 0.03)  # m
-MM = 1000.0
 SILENT = SimpleNamespace(training=lambda title, steps: range(1, steps + 1))
 
 
@@ -68,12 +68,6 @@ def show(axes: Axes, images: np.ndarray) -> None:
     )
 
 
-def bodies(axes: Axes, seen: np.ndarray, fill: bool = False) -> None:
-    """Draw the outlines of pusher and puck."""
-    for at, r in ((seen[:2], day15_mujoco.PUSHER), (seen[2:], day15_mujoco.PUCK)):
-        axes.add_patch(Circle(MM * at, MM * r, fill=fill, color=INK, linewidth=1.2))
-
-
 @chart.picture(height=6.6)
 def pixels(figure: Figure) -> None:
     """Draw what the camera sees, and what its offset does."""
@@ -94,7 +88,7 @@ def _seen(figure) -> None:
         strict=True,
     ):  # fmt: skip
         show(axes, images)
-        bodies(axes, SEEN[0])
+        pushing.bodies(axes, SEEN[0])
         axes.set(title=title, aspect="equal", xlim=(-150, 350), ylim=(0, 500))
         axes.set(xticks=(0, 200), yticks=(0, 200, 400))
     axes.plot(*MM * points[:2], "+", color=RED, ms=11, mew=2)

@@ -10,7 +10,6 @@ import day20_reward as lab
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 from PIL import Image
 
 from labkit.figures import chart
@@ -18,7 +17,6 @@ from labkit.figures.chart import BLUE, GREY, INK, ORANGE, RED
 
 import day15_mujoco
 
-MM = 1000.0
 SILENT = SimpleNamespace(training=lambda title, steps: range(1, steps + 1))
 SHOWN = (  # estimators of both clouds, their colours, and the range of the axes
     ((("whole return", GREY), ("return to go", ORANGE)), 75),
@@ -82,12 +80,6 @@ def _exact(axes: Axes) -> None:
     rest = lab.STD, lab.A, lab.B, lab.Q, lab.R, lab.START, lab.HORIZON
     truth = -lab.policy_cost_gradient(lab.GAIN, *rest)[0]
     axes.plot(*truth, "+", color=INK, ms=14, mew=2, label="exact gradient")
-
-
-def bodies(axes: Axes, seen: np.ndarray) -> None:
-    """Draw the outlines of pusher and puck."""
-    for at, r in ((seen[:2], day15_mujoco.PUSHER), (seen[2:], day15_mujoco.PUCK)):
-        axes.add_patch(Circle(MM * at, MM * r, fill=False, color=INK, linewidth=1.2))
 
 
 def small() -> Image.Image:
