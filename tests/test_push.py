@@ -13,4 +13,5 @@ def test_a_moment_lies_between_two_steps_and_the_last_one_stays():
         np.testing.assert_allclose(at, seen[0, 0] + 4 * row, rtol=1e-12)
         assert k == step
     at, k = episodes.moment(9.0)
-    assert at.tolist() == seen[0, -1].tolist() and k == 1
+    assert at.tolist() == seen[0, -1].tolist()
+    assert k == 1
