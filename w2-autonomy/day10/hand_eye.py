@@ -110,12 +110,12 @@ def solved(
 
 for slug, says, other in (
     ("mirror", "your code does not check the determinant of U V^T. If it is -1, U V^T "
-               "is a reflection, so negate the direction of the smallest singular "
-               "value",
+               "is a reflection, so negate the singular vector in U that belongs to "
+               "the smallest singular value",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
     ("mirror-turned-round", "if U V^T is a reflection, your code negates the whole "
-                            "matrix. Negate only the direction of the smallest "
-                            "singular value",
+                            "matrix. Negate only the singular vector in U that "
+                            "belongs to the smallest singular value",
      {"turn": partial(turns, rotation=all_turned)}),
     ("R-transposed", "your rotation is transposed. It should map the rotation vectors "
                      "b of the camera to the rotation vectors a of the hand, so use "
