@@ -44,10 +44,9 @@ def _(rng):  # two of the motions rotate by less than 0.2 rad
 
 
 @row.valid(
-    "Your result is correct for exact motions. With noise, no X fits all motions, so "
-    "the result depends on the method. Use the rotation that is nearest to the sum "
-    "of a b^T over the rotation vectors, as in kabsch, and then the least-squares t "
-    "for this rotation."
+    "Your result is correct for exact motions, but the specified method gives another "
+    "result for noisy motions. Use the rotation nearest to the sum of a b^T, as in "
+    "kabsch, and then the least-squares t for this rotation."
 )
 def _(A, B, X):
     return np.abs(A @ X - X @ B).max() < 1e-8
