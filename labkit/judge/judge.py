@@ -486,9 +486,9 @@ def _none_or_not(m: Matcher) -> Finding | None:
             many = count(made.sum(), "input")
             says += [f"an answer for {many} where None is expected ({kind.none})"]
         where = _first(lost | made, case.given, "first for")
-        several = len(S) > 1 and kind.called
-        called = f"{kind.called}: your function" if several else "Your function"
-        return Finding("none-or-not", f"{called} returns {', and '.join(says)}{where}.")
+        told_all = f"Your function returns {', and '.join(says)}{where}."
+        called = kind.called if len(S) > 1 else ""
+        return Finding("none-or-not", of_result(told_all, called))
     return None
 
 
