@@ -43,7 +43,10 @@ class TestAMistakeThatStopsOrReshapes:
         verdict = told(self.row(), function)
         assert verdict.mistake == "transposed"
         assert "stops with an error in 2 of 5 calls." in verdict.message
-        assert "multiplied`. The other answers are wrong, too." in verdict.message
+        assert (
+            "multiplied`. In the other 3 calls, all results are wrong."
+            in verdict.message
+        )
         assert "W is (k, m)" in verdict.message
 
     def test_is_named_where_it_is_right_at_all_others(self):
@@ -102,6 +105,29 @@ class TestAMistakeThatStopsOrReshapes:
         ]
         assert not any(alike(a[1], b[1]) for a, b in itertools.combinations(found, 2))
         assert alike(found[0][1], found[0][1])
+
+
+@pytest.mark.parametrize(
+    ("stops", "wrong", "says"),
+    [
+        (4, {1, 2}, "In the other 2 calls, all results are wrong."),
+        (3, {2, 3}, "In the other 3 calls, 2 results are wrong."),
+        (3, {3}, "In the other 3 calls, 1 result is wrong."),
+        (5, {1}, "In the other call, the result is wrong."),
+    ],
+)
+def test_the_calls_without_an_error_are_counted_by_themselves(stops, wrong, says):
+    inputs = [(float(x),) for x in range(1, 7)]
+    row = row_of(Scalar(), lambda x: 2.0 * x, lambda rng: inputs)
+
+    def function(x):
+        if x > 6 - stops:
+            raise ZeroDivisionError
+        return 2.0 * x + (x in wrong)
+
+    message = told(row, function).message
+    assert message.startswith("Your function stops with an error in")
+    assert f"`ZeroDivisionError`. {says}" in message
 
 
 class TestATolerance:

@@ -206,7 +206,7 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     rest = replace(asked, main=good, probes=[])
     if sizes := replies_read.of_another_size(rest):
         other = _of_another_size(rest, S, names, sizes)
-        also = f"Other answers are wrong, too. {other.message}"
+        also = f"In other calls, the result is wrong. {other.message}"
         return Finding(found.slug, f"{found.message} {also}")
     T = right_answers(asked.ask, good)
     case = replace(_case(rest, S, T, names), further=attempt(_further, asked))
@@ -222,11 +222,18 @@ def _both(
     # One answer alone may be that of many mistakes.
     named = attempt(diagnose, case, S, T, effort) if wrong.sum() > 1 else None
     other = named or what_is_wrong(case, S, T, counted=False)
-    verb = "is" if wrong.sum() == 1 else "are"
-    some = f"Of the {len(wrong)} other answers, {wrong.sum()} {verb} wrong, too."
-    also = "The other answers are wrong, too." if wrong.all() else some
-    says = f"{found.message} {also} {other.message}"
+    says = f"{found.message} {_in_the_others(wrong)} {other.message}"
     return Finding(named.slug if named else found.slug, says)
+
+
+def _in_the_others(wrong: Array) -> str:
+    """Return how many results are wrong in the calls that have one."""
+    if len(wrong) == 1:
+        return "In the other call, the result is wrong."
+    many = count(int(wrong.sum()), "result")
+    verb = "is" if wrong.sum() == 1 else "are"
+    some = "all results" if wrong.all() else many
+    return f"In the other {len(wrong)} calls, {some} {verb} wrong."
 
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
