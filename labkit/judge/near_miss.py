@@ -16,7 +16,12 @@ SINGLE = 5e-6  # what products in float32 may leave at worst
 SINGLE_INSIDE = 1e-6  # and what one float32 in a float64 file leaves
 EXACT = 1e-7  # of an entry: it is the right one, but for its sign or place
 ABOUT = 1e-2  # of its largest entry: an answer is about right
+SMALL = 1e-6  # of the largest entry: one that is nearly 0 has no relative error
 OFTEN = 4  # answers that a rule has to hold for
+# How near answers are that are about right; the first is the stronger one.
+EACH = " All relative errors are below 1 %."
+LARGEST = " Every error is below 1 % of the largest entry."
+WHY = " Is a constant rounded, or is a part of the formula only an approximation?"
 
 
 def explain(S: Array, T: Array) -> Finding:
@@ -70,6 +75,12 @@ def about_right(S: Array, T: Array) -> bool:
     return bool((difference(S, T) <= ABOUT * size).all())
 
 
+def _each_about_right(S: Array, T: Array) -> bool:
+    """Return whether each entry, (n, m), is less than a hundredth of itself off."""
+    least = SMALL * np.abs(T).max(axis=1, initial=0.0, keepdims=True)
+    return bool((np.abs(S - T) <= ABOUT * np.maximum(np.abs(T), least)).all())
+
+
 def in_common(S: Array, T: Array) -> str:
     """Return what all wrong answers of a function share with the right ones, or ""."""
     if S.shape != T.shape:
@@ -85,10 +96,7 @@ def in_common(S: Array, T: Array) -> str:
     if found := one_rule(S, T, wrong):
         return found
     if about:
-        return (
-            " All relative errors are below 1 %. Is a constant rounded, or is a part "
-            "of the formula only an approximation?"
-        )
+        return (EACH if _each_about_right(S, T) else LARGEST) + WHY
     mixed = np.abs(np.sort(S, axis=1) - np.sort(T, axis=1)) <= tiny.max(
         1, keepdims=True
     )
