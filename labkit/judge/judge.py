@@ -120,7 +120,7 @@ def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
     S = replies_read.read(asked.main, asked.ask, source)
     if isinstance(S, Finding):
         if S.slug == "shape":
-            S = attempt(odd_answers.named, asked, S, otherwise=S)
+            S = attempt(_of_odd_shapes, asked, S, otherwise=S)
         return Verdict("wrong", *_beside(S, asked, names))
     if other := attempt(_by_another_method, asked, S, names):
         return Verdict("wrong", other.slug, other.message, valid=True)
@@ -141,7 +141,7 @@ def _by_another_method(asked: Asked, S: Parts, names: Sequence[str]) -> Finding 
     named: Finding | None
     if sizes := replies_read.of_another_size(asked):
         named = _of_another_size(asked, S, names, sizes)
-        named = None if named is sizes else named
+        named = None if named.slug == sizes.slug else named
     else:
         T = right_answers(ask, asked.main)
         if ask.gaps(S, T).max() <= ask.near:
@@ -186,12 +186,18 @@ def _of_another_size(
     asked: Asked, S: Parts, names: Sequence[str], found: Finding
 ) -> Finding:
     """Return what answers of wrong sizes come from; the row may know more of them."""
-    named = attempt(odd_answers.named, asked, found, otherwise=found)
+    named = attempt(_of_odd_shapes, asked, found, otherwise=found)
     telling = asked.ask.unnamed and replies_read.of_another_length(asked)
     if named is not found or not asked.ask.unnamed or not telling:
         return named
     T = right_answers(asked.ask, asked.main)
     return asked.ask.unnamed(_case(asked, S, T, names)) or found
+
+
+def _of_odd_shapes(asked: Asked, found: Finding) -> Finding:
+    """Return what arrays of wrong shapes come from, or what was found."""
+    named = odd_answers.named(asked, found)
+    return odd_answers.in_another_order(asked, found) if named is found else named
 
 
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
