@@ -21,8 +21,8 @@ row = Row(
         HeldOut(
             "underflow",
             "Your function is right for an action near its mean, but not far from it. "
-            "The density of a far action is so small that exp gives 0, and the log of 0 "
-            "is minus infinity. Take the logarithm of the formula on paper first, so "
+            "The density of a far action is so small that exp gives 0, and the log of "
+            "0 is minus infinity. Take the logarithm of the formula on paper first, so "
             "that your code does not need this exp.",
             far,
         ),
