@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from labkit.judge.answers import capitalised
+from labkit.judge.form import is_of_its_form
 from labkit.judge.hypothesis import evidence
 from labkit.judge.mistake import REDONE, Finding
 from labkit.judge.mutant import Mutant
@@ -128,9 +129,25 @@ def has_its_kind(m: Any, mutant: Mutant) -> bool:
     )
 
 
+def is_in_its_form(m: Any, mutant: Mutant) -> bool:
+    """Return whether a mutant's sentence is about something in the student's function.
+
+    The lab's form is the one that the guide teaches; another right function may have
+    steps that the student's has not.
+    """
+    if mutant.body.own or own_line(m, mutant):
+        return True
+    own = _own_function(m, mutant)
+    others = [body.function for body in m.bodies]
+    return own is None or is_of_its_form(own.own, mutant, others)
+
+
 def tells(mutant: Mutant) -> bool:
-    """Return whether a mutant's kind says enough without a place."""
-    return mutant.kind in TELLING
+    """Return whether a mutant's kind says enough without a place.
+
+    "A division is missing" does, and "a part of the formula is missing" does not.
+    """
+    return mutant.kind in TELLING and what(mutant) != SAYS["left-out"]
 
 
 def half(m: Any, mutant: Mutant) -> str:
