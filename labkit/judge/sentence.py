@@ -92,7 +92,8 @@ def _of_the_formula(m: Any, mutant: Mutant) -> str:
     that of the changed formula.
     """
     says = told(m, mutant)
-    if tells(mutant) or own_line(m, mutant) or known_text(m, mutant):
+    known = own_line(m, mutant) or known_text(m, mutant)
+    if mutant.kind in TELLING or known:
         return says
     return f"your code gives the result of the correct formula with one change: {says}"
 

@@ -1,4 +1,4 @@
-# task 5.7: term-clamped
+# task 5.7: acceleration-wrong
 # Bounds the term, and the integral apart.
 import numpy as np
 
