@@ -10,7 +10,6 @@ import mujoco
 import numpy as np
 
 from robo47.capstone.arm import POSTURE, STIFFNESS, Arm, Law
-
 from robo47.checks import Array
 from robo47.pushing import scene
 
@@ -35,6 +34,10 @@ class PushingArm(Arm):
     def pose_at(self, xy: Array) -> Array:
         """Return the pose of the tool at a point of the plane, (2,)."""
         return self.fns.make_T(DOWN, scene.world(xy))
+
+    def ball(self, q: Array) -> Array:
+        """Return the position of the ball in the plane at a configuration, (2,)."""
+        return np.asarray(self.end(q))[:2, 3] - scene.HOME
 
     def follow(self, set_point: SetPoint, posture: Array) -> Law:
         """Return a critically damped spring between the ball and a moving set point.

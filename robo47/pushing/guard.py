@@ -2,7 +2,8 @@
 
 The score of an observation is the distance to the nearest demonstrated one, both
 normalised, so its unit is a standard deviation. The limit comes from runs of the policy
-in the plane (Day 21), where nothing unusual happens.
+in the plane (Day 21), in which the puck is moved aside once as well: its data must be
+exchangeable with the runs that it guards.
 """
 
 from typing import Any
@@ -16,6 +17,8 @@ from robo47.pushing import learning
 EPISODES = 60  # runs of the policy in the plane
 FALSE_ALARMS = 0.05  # the fraction of usual episodes that may exceed the limit
 IN_A_ROW = 3  # ticks above the limit before it raises the alarm
+TICKS, BEFORE = 100, 30  # of such a run, and those before the puck is moved
+MOVED = 0.06  # m
 EVERY = 4  # one demonstrated observation in four is compared
 SEED = 500  # of the starts of these runs, and of their draws
 
@@ -59,15 +62,34 @@ def guard_scores(fns: Any, n: int = EPISODES, seed: int = SEED) -> Array:
     """
     rng = np.random.default_rng(seed)
     start = push.dock(n, rng)
+    side = rng.choice([-1.0, 1.0], n)
     drawn = learning.policy(fns)
 
     def plan(seen: Array) -> Array:
-        noise = rng.normal(size=(n, 2 * learning.ACTIONS))
-        return drawn.draw(seen, noise)
+        return drawn.draw(seen, rng.normal(size=(n, 2 * learning.ACTIONS)))
 
-    acting = chunking.chunked_policy(plan, learning.EXECUTED)
-    seen = push.run(*push.scene(), start, acting).observation
+    def run(start: Array, ticks: int) -> Array:
+        acting = chunking.chunked_policy(plan, learning.EXECUTED)
+        return push.run(*push.scene(), start, acting, ticks).observation
+
+    before = run(start, BEFORE)
+    after = run(moved_aside(before[:, -1], side), TICKS - BEFORE)
+    seen = np.concatenate([before, after], axis=1)
     return np.max([novelty(fns, now) for now in seen.transpose(1, 0, 2)], axis=0)
+
+
+def moved_aside(seen: Array, side: Array) -> Array:
+    """Return observations, (n, 4), after the puck was moved across its way home.
+
+    Args:
+        seen: observations, (n, 4).
+        side: of each, (n,), 1 or -1.
+    """
+    x, y = seen[:, 2:].T
+    across = np.column_stack([-y, x]) / np.maximum(np.hypot(x, y), 1e-9)[:, None]
+    moved = seen.copy()
+    moved[:, 2:] += MOVED * side[:, None] * across
+    return moved
 
 
 def limit(fns: Any) -> float:

@@ -23,11 +23,11 @@ DEMOS = 200  # demonstrations, each from another start
 ACTIONS = 8  # of a plan, K
 EXECUTED = 4  # actions of a plan before the next one is drawn, h
 LEVELS = 50  # of the noise schedule
-DENOISING = 10  # steps from noise to a plan
+DENOISING = 20  # steps from noise to a plan
 UNITS = 96  # of both hidden layers
 BATCH = 128  # rows of a step
-RATE = 0.003  # step size at the first update; it falls to 0 as a cosine
-UPDATES = 5000  # steps of Adam, of the diffusion policy
+RATE = 0.01  # step size at the first update; it falls to 0 as a cosine
+UPDATES = 4500  # steps of Adam, of the diffusion policy
 SMALL = {"units": 64, "updates": 1500}  # the same of a regression
 
 # The functions that train a policy and draw plans, and what they belong to.
@@ -207,7 +207,7 @@ def _absolute(fns: Any, pred: Array, target: Array, mask: Array) -> Array:
 
 
 def _inputs(z: Array, x: Array, abar: Any) -> Array:
-    """Return inputs of the network: observation, noisy plan and level, (n, 12 + K m)."""
+    """Return the network's inputs: observation, noisy plan, level, (n, 12 + K m)."""
     time = np.arccos(np.sqrt(np.clip(abar, 0.0, 1.0))) * 2.0 / np.pi
     time = np.broadcast_to(time, len(x))
     return np.hstack([z, x, diffusion.time_features(time)])

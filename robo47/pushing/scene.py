@@ -22,9 +22,11 @@ STICK_RADIUS = 0.004  # m
 TRAY_HALF = (0.3, 0.3, 0.005)  # m
 EYE = (*HOME, 0.03)  # m
 EYE_HALF = (0.05, 0.05, 0.02)  # m
+MARK_HALF = (push.PUCK, 0.0002, 0.0)  # m, radius and half the height
 CONTACT = 0.004  # s, time constant of the contact: two time steps
 GLASS = (0.55, 0.75, 0.85, 0.25)
 ORANGE = (0.90, 0.62, 0.0, 1.0)
+GREEN = (0.30, 0.76, 0.43, 1.0)
 DARK = (0.15, 0.15, 0.18, 1.0)
 
 
@@ -119,13 +121,14 @@ def _add_puck(spec: mujoco.MjSpec, mass: float, damping: float) -> None:
 
 def _add_looks(spec: mujoco.MjSpec) -> None:
     """Add tray, eye and mark, which nothing touches."""
-    box = mujoco.mjtGeom.mjGEOM_BOX
+    box, disc = mujoco.mjtGeom.mjGEOM_BOX, mujoco.mjtGeom.mjGEOM_CYLINDER
     middle = (*HOME, TRAY - TRAY_HALF[2])
-    for name, pos, half, colour in (
-        ("tray", middle, TRAY_HALF, GLASS),
-        ("eye", EYE, EYE_HALF, DARK),
+    for name, kind, pos, half, colour in (
+        ("tray", box, middle, TRAY_HALF, GLASS),
+        ("eye", box, EYE, EYE_HALF, DARK),
+        ("mark", disc, (*HOME, TRAY), MARK_HALF, GREEN),
     ):
-        geom = spec.worldbody.add_geom(name=name, type=box, pos=pos, size=half)
+        geom = spec.worldbody.add_geom(name=name, type=kind, pos=pos, size=half)
         geom.contype = geom.conaffinity = 0
         geom.rgba = colour
 

@@ -18,13 +18,13 @@ from robo47.pushing.eye import Eye
 PUCK = (-0.10, 0.11)  # m, of the puck of `make capstone`
 SPEED = 0.4  # of the approach, as a fraction of the joints' limits
 RATE = 100.0  # Hz, of the controller
-TICKS = 100  # of 0.1 s each, in which it pushes
+
 FASTEST = 0.2  # m/s, of the set point
 LOW, HIGH = np.array([-0.27, -0.27]), np.array([0.27, 0.27])  # m, of the set point
+ROUND_SECONDS = 2.5  # s, in which the ball goes around the puck
 PARTS = 5  # of a tick, when it looks ahead
-MOVED_AT = 3.0  # s after the push began
-MOVED = 0.06  # m, at a right angle to the way home
-HAND_SECONDS = 0.3  # s that the hand takes
+HAND_SECONDS = 0.3  # s in which somebody moves the puck, at a right angle to its way
+
 HOME_MM = 10.0  # mm: a puck closer to its mark than this is home
 
 
@@ -92,7 +92,7 @@ class Push:
         """Push the puck home, tick by tick."""
         self.began = self.now
         self.phases.append(("push", self.now))
-        for tick in range(TICKS):
+        for tick in range(guard.TICKS):
             seen = self._look()
             if self.guard.alarm(seen):
                 self.stopped = f"what it sees is new: {self.guard.scores[-1]:.2f}"
@@ -130,15 +130,15 @@ class Push:
         if self.coming and self.coming[0][0] <= tick:
             self.drawn, self.plan = self.coming.pop(0)
         v = self.fns.clamp_speed(self._entry(tick), FASTEST)
-        return np.asarray(
-            self.fns.keep_inside(self.set_point, v, LOW, HIGH, push.TICK)
-        )
+        return np.asarray(self.fns.keep_inside(self.set_point, v, LOW, HIGH, push.TICK))
 
     def _hand(self, tick: int) -> Array:
         """Return the velocity at which somebody moves the puck in a tick, (2,)."""
-        t = tick * push.TICK - MOVED_AT
+        t = tick * push.TICK - guard.BEFORE * push.TICK
         inside = -1e-9 < t < HAND_SECONDS - 1e-9
         if not (self.options.moved and inside):
+            if self.phases[-1][0] == "moved by hand":
+                self.phases.append(("push again", self.now))
             return np.zeros(2)
         if t < 1e-9:
             self.phases.append(("moved by hand", self.now))
@@ -146,7 +146,7 @@ class Push:
             across = np.array([-y, x]) / max(np.hypot(x, y), 1e-9)
             away = np.sign((self.puck() - self.ball()) @ across) or 1.0
             self.across = away * across
-        return MOVED / HAND_SECONDS * self.across
+        return guard.MOVED / HAND_SECONDS * self.across
 
     def _move(self, v: Array, hand: Array) -> None:
         """Move the set point for a tick, and the puck if somebody does."""
@@ -182,7 +182,7 @@ class Push:
 
     def ball(self) -> Array:
         """Return the position of the ball from the measured configuration, (2,)."""
-        return np.asarray(self.arm.end(self.joints()))[:2, 3] - scene.HOME
+        return self.arm.ball(self.joints())
 
     def puck(self) -> Array:
         """Return the true position of the puck, (2,)."""
