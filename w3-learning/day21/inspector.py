@@ -17,6 +17,7 @@ from labkit.lesson.day import find_day
 from labkit.lesson.lab_module import lab_of
 from robo47 import deploy, push, pushing
 from robo47.checks import Array
+from robo47.pushing import guard
 
 LAB = lab_of(find_day(21))
 CIRCLE = np.linspace(0, 2 * np.pi, 40)
@@ -112,7 +113,7 @@ class Push(ui.Declared):
         then = first[-1:] + np.array([0, 0, -y, x]) * at.moved / 1000
         rest = push.run(*world, then, drive, push.STEPS - MOVED_AT).observation[0]
         seen = np.concatenate([first[:-1], rest])
-        scores = pushing.novelty(pushing.library(), seen + shift)
+        scores = guard.novelty(pushing.library(), seen + shift)
         limit = float(fns.conformal_limit(usual(), LAB.SHARE))
         alarm = int(fns.alarm_at(scores, limit, LAB.IN_A_ROW))
         return Pushed(seen, np.array(drive.plans[1:]), scores, limit, alarm)

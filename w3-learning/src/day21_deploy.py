@@ -14,13 +14,13 @@ import numpy as np
 from robo47 import chunking, cli, cloning, evaluation, pushing
 from robo47.lesson.lab import Lab
 from robo47.policy import success_rate
+from robo47.pushing import guard
 
 import day15_mujoco
 
 SEED = 21  # of all draws
 SPEED = 0.1  # m/s, of the set point in step 2
-STIFFNESS, INERTIA = 600.0, {"y": 5.32, "x": 12.3}  # N/m, and kg along each axis
-LEAD = 0.01  # s, the set point is computed for the end of a control period
+STIFFNESS = 600.0  # N/m, of this spring
 WALL = 0.2  # m, of the box in step 1
 TICK, TOUCH = day15_mujoco.TICK, day15_mujoco.R  # s and m
 PARTS = 5  # of an action, when its push is predicted
@@ -234,18 +234,19 @@ def walled(lab: Lab, start: np.ndarray) -> None:
 def spring(lab: Lab, fns) -> None:
     """Compare the lag of the arm's spring with the formula, along two axes."""
     off = []
-    print("        predicted   measured   with forward velocity, mm")
+    print("     inertia, kg   predicted   measured   with feedforward velocity, mm")
     for axis, direction in (("y", (0.0, 1.0)), ("x", (1.0, 0.0))):
-        paper = 1e3 * lag_behind(SPEED, STIFFNESS, INERTIA[axis])
+        inertia = pushing.inertia(fns, direction)
+        paper = 1e3 * lag_behind(SPEED, STIFFNESS, inertia)
         # mujoco.mj_step moves the arm
         alone, forward = (
             1e3 * pushing.lag(fns, direction, SPEED, forward=sent)
             for sent in (False, True)
         )
-        print(f"  {axis}{paper:14.1f}{alone:11.1f}{forward:11.1f}")
+        print(f"  {axis}{inertia:12.2f}{paper:12.1f}{alone:11.1f}{forward:11.1f}")
         lab.measured(f"lag along {axis}, mm", alone)
-        off.append(alone / (paper - 1e3 * SPEED * LEAD) - 1)
-    lab.record("lag", off, label="|measured / (predicted - 1 mm) - 1|")
+        off.append(alone / paper - 1)
+    lab.record("lag", off, label="|measured / predicted - 1|")
 
 
 def touching(phi: float) -> np.ndarray:
@@ -436,7 +437,7 @@ def scores_of(fns, start: np.ndarray, shift: np.ndarray):
     # mujoco.mj_step runs the policy
     run = day15_mujoco.run(*day15_mujoco.scene(), start, acting)
     seen = run.observation
-    score = [pushing.novelty(fns, now + shift) for now in seen.transpose(1, 0, 2)]
+    score = [guard.novelty(fns, now + shift) for now in seen.transpose(1, 0, 2)]
     return np.array(score).T, np.linalg.norm(seen[:, -1, 2:], axis=1) < NEAR
 
 
@@ -467,9 +468,13 @@ def league(lab: Lab, fns) -> None:
 
 
 def arm(lab: Lab, fns) -> None:
-    """Run one attempt of the capstone on the arm."""
+    """Push the puck of the capstone home on the arm."""
+    # mujoco.mj_step moves the arm
     found = pushing.attempt(fns)
-    print(pushing.told(found))
+    print(pushing.HEAD.strip("\n"))
+    print(pushing.row("one puck", found))
+    lab.record("push", found.place_mm, metric="mm", label="puck from its mark, mm")
+    lab.record("seen", found.seen_mm, metric="mm", label="error of the camera, mm")
 
 
 def main() -> int:
