@@ -26,8 +26,8 @@ LEVELS = 50  # of the noise schedule
 DENOISING = 20  # steps from noise to a plan
 UNITS = 96  # of both hidden layers
 BATCH = 128  # rows of a step
-RATE = 0.01  # step size at the first update; it falls to 0 as a cosine
-UPDATES = 4500  # steps of Adam, of the diffusion policy
+RATE = 0.008  # step size at the first update; it falls to 0 as a cosine
+UPDATES = 5000  # steps of Adam, of the diffusion policy
 SMALL = {"units": 64, "updates": 1500}  # the same of a regression
 
 # The functions that train a policy and draw plans, and what they belong to.
