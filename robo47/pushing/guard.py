@@ -15,7 +15,7 @@ from robo47.checks import Array
 from robo47.pushing import learning
 
 EPISODES = 60  # runs of the policy in the plane
-FALSE_ALARMS = 0.05  # the fraction of usual episodes that may exceed the limit
+FALSE_ALARMS = 0.02  # the largest probability that a usual run exceeds the limit
 IN_A_ROW = 3  # ticks above the limit before it raises the alarm
 TICKS, BEFORE = 100, 30  # of such a run, and those before the puck is moved
 MOVED = 0.06  # m

@@ -39,24 +39,25 @@ ROWS: dict[str, Row] = {
 
 
 def league(
-    fns: Any, rows: Sequence[str] | None = None
+    fns: Any, rows: Sequence[str] | None = None, ticks: int = push.STEPS
 ) -> tuple[list[str], NDArray[np.bool_]]:
     """Return the success of each policy on each start.
 
     Args:
         fns: has the functions of the push, by name.
         rows: names of ROWS; by default all.
+        ticks: of 0.1 s, after which a puck is home or not.
 
     Returns:
         The k names, and whether the puck is within 10 mm of its mark at the end, (k,
         n): as `compare_all` takes it.
     """
     names = list(ROWS if rows is None else rows)
-    return names, np.array([succeeds(fns, name) for name in names])
+    return names, np.array([succeeds(fns, name, ticks) for name in names])
 
 
-def succeeds(fns: Any, name: str) -> NDArray[np.bool_]:
-    """Return the success of a policy of ROWS on each start, (STARTS,)."""
+def succeeds(fns: Any, name: str, ticks: int) -> NDArray[np.bool_]:
+    """Return the success of a policy of ROWS after some ticks, (STARTS,)."""
     make, executed, steps = ROWS[name]
     drawn = make(fns)
     rng = np.random.default_rng(DRAWS_SEED)
@@ -67,5 +68,5 @@ def succeeds(fns: Any, name: str) -> NDArray[np.bool_]:
 
     start = push.dock(STARTS, np.random.default_rng(STARTS_SEED))
     acting = chunking.chunked_policy(plan, executed)
-    end = push.run(*push.scene(), start, acting).observation[:, -1, 2:]
+    end = push.run(*push.scene(), start, acting, ticks).observation[:, -1, 2:]
     return np.asarray(np.linalg.norm(end, axis=1) < WITHIN)

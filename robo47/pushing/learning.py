@@ -26,9 +26,9 @@ LEVELS = 50  # of the noise schedule
 DENOISING = 20  # steps from noise to a plan
 UNITS = 96  # of both hidden layers
 BATCH = 128  # rows of a step
-RATE = 0.01  # step size at the first update; it falls to 0 as a cosine
-UPDATES = 4500  # steps of Adam, of the diffusion policy
-SMALL = {"units": 64, "updates": 1500}  # the same of a regression
+RATE = 0.008  # step size at the first update; it falls to 0 as a cosine
+UPDATES = 5000  # steps of Adam, of the diffusion policy
+REGRESSION_UPDATES = 1500  # the same of a regression; more do not improve it
 
 # The functions that train a policy and draw plans, and what they belong to.
 TRAINS = (
@@ -114,7 +114,9 @@ def _kept(kind: Any, *functions: Callable[..., Any]) -> Policy:
     def batch(rows: Array, rng: np.random.Generator) -> tuple[Array, Array, Array]:
         return data.seen[rows], data.plans[rows], data.mask[rows]
 
-    net = _trained(fns, f"regression, {loss} error", batch, slope, data, 4, **SMALL)
+    net = _trained(
+        fns, f"regression, {loss} error", batch, slope, data, 4, REGRESSION_UPDATES
+    )
     return Policy(fns, data, net, False)
 
 
@@ -131,7 +133,7 @@ def _diffusion(fns: Any) -> Policy:
 
     slope = partial(_squared, fns)
     width = 12 + data.plans.shape[1]
-    net = _trained(fns, "the policy", batch, slope, data, width, UNITS, UPDATES)
+    net = _trained(fns, "the policy", batch, slope, data, width, UPDATES)
     return Policy(fns, data, net, True)
 
 
@@ -152,7 +154,6 @@ def _trained(
     slope: Callable[[Array, Array, Array], Array],
     data: Data,
     width: int,
-    units: int,
     updates: int,
 ) -> list[Array]:
     """Return the moving average of a network over its training.
@@ -163,11 +164,11 @@ def _trained(
         batch: given rows and a generator, inputs (n, width), targets and their mask.
         slope: given predictions, targets and mask, the gradient of the loss.
         data: of the demonstrations.
-        width, units: numbers of inputs and of units in both hidden layers.
+        width: number of inputs.
         updates: steps of Adam.
     """
     rng = np.random.default_rng(SEED)
-    first = cloning.random_net(rng, width, units, data.plans.shape[1])
+    first = cloning.random_net(rng, width, UNITS, data.plans.shape[1])
     slow = cloning.flat(first)
 
     def gradient(rows: Array, net: list[Array]) -> Iterable[Array]:
