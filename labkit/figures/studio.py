@@ -155,12 +155,7 @@ def add_box(scene: mujoco.MjvScene, box: Box) -> None:
     t = box.T_world_box[:3, 3]
     colour = np.array(box.colour, dtype=np.float32)
     kind = getattr(mujoco.mjtGeom, f"mjGEOM_{box.kind.upper()}")
-    size = np.array(box.half)
-    if box.kind in ("cylinder", "capsule"):  # drawn with two radii and half the length
-        size = size[[0, 0, 1]]
-    elif box.kind == "sphere":
-        size = size[[0, 0, 0]]
-    shape = add_shape(scene, kind, size, t, R, colour)
+    shape = add_shape(scene, kind, np.array(box.half), t, R, colour)
     shape.objtype = mujoco.mjtObj.mjOBJ_UNKNOWN
     shape.objid = -1
     shape.dataid, shape.transparent = -1, int(colour[3] < 1.0)

@@ -69,9 +69,11 @@ def tray(
 
 
 def start(model: mujoco.MjModel) -> mujoco.MjData:
-    """Return the state of the scene with the arm in the ready configuration."""
+    """Return the state of the scene, the arm ready, the stick between its fingers."""
     data = simulate.start(model, READY_Q)
-    data.ctrl[7:] = 0.0  # the fingers are closed: they hold the stick
+    data.qpos[[model.joint(f"finger_joint{i}").qposadr[0] for i in (1, 2)]] = 0.0
+    data.ctrl[7:] = 0.0  # closed
+    mujoco.mj_forward(model, data)
     return data
 
 
