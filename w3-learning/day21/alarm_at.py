@@ -111,6 +111,7 @@ def _(score, limit, ticks):
 def _(rng):
     yield np.append(np.zeros(100), np.ones(12)), 0.5, 10
     yield 1e6 * rng.numbers(0, 1, 30), 2e5, 3
+    yield 1e-3 * rng.numbers(0, 1, 30), 2e-4, 3
 
 
 row.at_least_0(ticks="a number of ticks", answer="a tick; -1 is another line")

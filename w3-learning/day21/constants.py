@@ -28,7 +28,7 @@ numbers = Numbers(
 
 
 @numbers.add(
-    "rotation by a clamp of each entry", "{:.1f} degrees",
+    "rotation by a clamp of each entry", "{:.2f} degrees",
     speed=between(2.0, 2.2, "26.6 - 9.5 degrees: (0.2, 0.1) for (0.6, 0.1)"),
     limit=times(0.0, "0.3 is below the limit"),
 )  # fmt: skip

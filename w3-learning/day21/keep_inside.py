@@ -110,6 +110,7 @@ def _(rng):
     low, high = np.array([-0.5, -0.5]), np.array([0.5, 0.5])
     yield np.array([0.49999, 0.0]), np.array([0.2, 0.1]), low, high, 0.001
     yield np.array([0.3, -0.4]), np.array([0.2, -0.9]), low, high, 10.0
+    yield np.array([5e-6, -3e-6]), np.array([2e-4, -4e-4]), low, high, 0.1
 
 
 row.at_least_0(dt="a duration")

@@ -84,6 +84,7 @@ def _(plan, drawn, now):
 def _(rng):
     yield rng.numbers(-1, 1, 40, 2), 1000, 1020
     yield rng.numbers(-1, 1, 8, 20), 3, 1000
+    yield 1e-3 * rng.numbers(-1, 1, 8, 2), 4, 7
 
 
 row.at_least_0(drawn="a tick", now="a tick")

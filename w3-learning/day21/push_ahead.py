@@ -15,7 +15,7 @@ def scene(rng, distance, k, steps, reach=0.065, speed=0.1):
     angles = way + aside + rng.uniform(-0.3, 0.3, k)
     actions = speed * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     obs = np.concatenate([pusher, puck]).round(4)
-    return obs, actions.round(3), 0.1, steps, reach
+    return obs, actions.round(5), 0.1, steps, reach
 
 
 @row.inputs
@@ -187,6 +187,7 @@ def _(obs, actions, dt, steps, reach):
 def _(rng):
     yield scene(rng, 0.066, 15, 20)
     yield scene(rng, 0.0651, 1, 200)
+    yield scene(rng, 0.065, 3, 5, speed=8e-4)
 
 
 row.at_least_0(dt="a duration", steps="a number of parts", reach="a distance")

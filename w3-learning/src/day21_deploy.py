@@ -33,7 +33,7 @@ SHARE = 0.05  # of false alarms
 SPLITS = 1000  # of the scores into known and new ones
 IN_A_ROW = 3  # ticks until the guard stops the robot
 ROWS = ("diffusion, 4 of 8 actions", "squared error, 1 action")  # of the league
-WATCHED = 20  # episodes of each kind that the guard watches
+WATCHED = 40  # episodes of each kind that the guard watches
 
 
 OWN = (  # the functions of this file that the capstone calls
@@ -421,8 +421,8 @@ def watched(lab: Lab, fns, limit: float) -> None:
         score, near = scores_of(fns, first, shift)
         ticks = [alarm_at(one, limit, IN_A_ROW) for one in score]
         alarms = np.sum(np.array(ticks) >= 0)
-        print(f"  {name:20} alarms {alarms:2} of {WATCHED}, "
-              f"pucks within 10 mm about {rounded(near):2}")  # fmt: skip
+        print(f"  {name:20} about {5 * round(alarms / 5):2} alarms and about "
+              f"{rounded(near):2} pucks within 10 mm, of {WATCHED}")  # fmt: skip
 
 
 def scores_of(fns, start: np.ndarray, shift: np.ndarray):
