@@ -4,7 +4,7 @@
     python src/day21_deploy.py       in w3-learning/, once that is done
 
 An observation is (pusher x, y, puck x, y), metres, (4,). A plan (K, 2) has one velocity
-for each tick of 0.1 s, m/s. On the arm, the pusher is the ball in the hand.
+for each tick of 0.1 s, m/s. On the arm, the pusher is the sphere in the hand.
 """
 
 import kit  # noqa: F401 (goes on in the kit's own Python)
