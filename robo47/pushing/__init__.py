@@ -191,9 +191,8 @@ def ablations(fns: Any) -> dict[str, tuple[Any, dict[str, Any]]]:
     """
 
     def no_noise(x: Array, eps: Array, abar: float, prev: float) -> Array:
-        return np.asarray(fns.ddim_step(x, 0.0 * eps, abar, prev)) * 0.0 + np.sqrt(
-            prev
-        ) * np.asarray(fns.ddim_step(x, eps, abar, 1.0))
+        clean = fns.ddim_step(x, eps, abar, 1.0)
+        return np.asarray(np.sqrt(prev) * clean)
 
     changed: dict[str, dict[str, Any]] = {
         "right": {},
