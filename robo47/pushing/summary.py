@@ -14,8 +14,8 @@ from robo47.pushing.result import LAG_MM, SEEN_MM, Result
 from robo47.pushing.task import HOME_MM
 
 HEAD = f"""
-{"":26}{"place":>8}{"time":>8}{"side":>8}{"seen":>8}{"lag":>8}{"new":>8}
-{"":26}{"mm":>8}{"s":>8}{"":8}{"mm":>8}{"mm":>8}"""
+{"":24}{"place":>7}{"time":>7}{"side":>7}{"seen":>7}{"lag":>7}{"new":>7}{"home":>9}
+{"":24}{"mm":>7}{"s":>7}{"":7}{"mm":>7}{"mm":>7}"""
 MOMENTS = ("push", "moved by hand", "push again")
 DRAWN = ("tray", "mark", "eye", "stick", "ball", "puck")  # geoms besides the arm
 KINDS = {
@@ -27,12 +27,16 @@ KINDS = {
 
 
 def row(name: str, result: Result) -> str:
-    """Return one line of the table."""
+    """Return one line of the table; of several pucks it has the worst numbers."""
     side = "left" if result.left else "right"
-    line = f"{name:26}" + ("   stops" if result.stopped else f"{result.place_mm:8.0f}")
     since = "-" if np.isnan(result.time) else f"{result.time:.1f}"
-    line += f"{since:>8}{side:>8}{result.seen_mm:8.1f}{result.lag_mm:8.1f}"
-    return line + f"{result.new:8.2f}"
+    home = "yes" if result.home else "stops" if result.stopped else "no"
+    if result.homes:
+        home = f"{sum(result.homes)} of {len(result.homes)}"
+    return (
+        f"{name:24}{result.place_mm:7.0f}{since:>7}{side:>7}{result.seen_mm:7.1f}"
+        f"{result.lag_mm:7.1f}{result.new:7.2f}{home:>9}"
+    )
 
 
 def summary(result: Result) -> Summary:
