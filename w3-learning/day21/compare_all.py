@@ -1,5 +1,7 @@
 """21.8 `compare_all(success)`: its questions and its mistakes."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from labkit.judge import Mask, Row, Vector
@@ -95,7 +97,7 @@ def _(success):
     p = pairs(success[0], success[1:])
     best = np.argmax(success.sum(axis=1))
     of_best = pairs(success[best], np.delete(success, best, axis=0))
-    following = np.array([sign_test(*two) for two in zip(success, success[1:])])
+    following = np.array([sign_test(*two) for two in pairwise(success)])
     apart = np.array([unpaired(success[0], other) for other in success[1:]])
     every = [
         sign_test(success[i], success[j])

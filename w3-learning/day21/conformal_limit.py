@@ -8,7 +8,7 @@ import numpy as np
 from labkit.judge import Row, Scalar
 
 row = Row(Scalar(called="the limit"))
-# Sizes and fractions for which (n + 1) (1 - share) is not rounded across a whole number.
+# Sizes and fractions whose (n + 1) (1 - share) is whole in floating point as well.
 EVEN = ((19, 0.05), (18, 0.05), (39, 0.05), (9, 0.1), (3, 0.25), (7, 0.5), (1, 0.5))
 
 
