@@ -49,8 +49,8 @@ NAME = "the push"
 THING = "puck"
 GOAL = "home within 10 mm, after somebody moved it"
 MORAL = (
-    "Three pucks each, and the worst number of them. Home is no proof: look at what\n"
-    "the eye sees, at the lag, and at what is new."
+    "Each row has the worst numbers of three pucks. A puck at home is no proof: compare\n"
+    "the error of the camera (seen), the lag, and the score of the guard (new)."
 )
 PUCKS = 3  # of each ablation
 NEAREST, FARTHEST = 0.14, 0.17  # m from home, of a random puck
@@ -205,17 +205,17 @@ def ablations(fns: Any) -> dict[str, tuple[Any, dict[str, Any]]]:
     changed: dict[str, dict[str, Any]] = {
         "right": {},
         "another draw": {"draw": 101},
-        "told where the puck is": {"known_puck": True},
-        "the eye 10 mm beside": {"offset": 0.01},
-        "the eye 30 mm beside": {"offset": 0.03},
-        "no blur in the eye": {"blur": False},
+        "puck's position given": {"known_puck": True},
+        "camera 10 mm off": {"offset": 0.01},
+        "camera 30 mm off": {"offset": 0.03},
+        "no blur in the camera": {"blur": False},
         "one denoising step": {"denoising": 1},
         "whole plans of 8": {"executed": 8},
         "plans 0.3 s late": {"late": 3},
-        "0.3 s late, not ahead": {"late": 3, "ahead": False},
+        "late, not predicted": {"late": 3, "ahead": False},
         "no forward velocity": {"forward": False},
         "a puck of 400 g": {"mass": 0.4},
-        "honey, 2 N s/m": {"damping": 2.0},
+        "damping of 2 N s/m": {"damping": 2.0},
     }
     forgets = SimpleNamespace(**{**vars(fns), "ddim_step": no_noise})
     found = {name: (fns, options) for name, options in changed.items()}

@@ -50,9 +50,11 @@ def of(done: task.Push) -> Result:
     observed = np.array(done.observed)
     puck = qpos[:, done.address : done.address + 2]
     place = 1e3 * np.linalg.norm(puck, axis=1)
+    time = _home_since(place, t - done.began)
+    home = [] if np.isnan(time) else [("home", done.began + time)]
     return Result(
         place_mm=float(place[-1]),
-        time=_home_since(place, t - done.began),
+        time=time,
         left=_on_the_left(observed),
         seen_mm=1e3 * max(done.seen_off),
         lag_mm=1e3 * done.arm.worst,
@@ -62,7 +64,7 @@ def of(done: task.Push) -> Result:
         stopped=done.stopped,
         observed=observed,
         seconds=done.now,
-        phases=done.phases,
+        phases=sorted([*done.phases, *home], key=lambda phase: phase[1]),
         t=t,
         qpos=qpos,
     )

@@ -95,7 +95,7 @@ class Push:
         for tick in range(guard.TICKS):
             seen = self._look()
             if self.guard.alarm(seen):
-                self.stopped = f"what it sees is new: {self.guard.scores[-1]:.2f}"
+                self.stopped = f"its observation is new, with a score of {self.guard.scores[-1]:.2f}"
                 break
             if tick % self.options.executed == 0:
                 self._draw(seen, tick)
