@@ -49,8 +49,8 @@ NAME = "the push"
 THING = "puck"
 GOAL = "home within 10 mm, after somebody moved it"
 MORAL = (
-    "Each row has the worst numbers of three pucks. A puck at home is no proof: compare\n"
-    "the error of the camera (seen), the lag, and the score of the guard (new)."
+    "Each row has the worst numbers of three pucks. Home is no proof: compare the\n"
+    "error of the camera (seen), the lag, and the score of the guard (new)."
 )
 PUCKS = 3  # of each ablation
 NEAREST, FARTHEST = 0.14, 0.17  # m from home, of a random puck
