@@ -1,5 +1,6 @@
 """The result of a push. Metres, seconds; in names millimetres."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +29,8 @@ class Result(NamedTuple):
     phases: list[tuple[str, float]]  # (name, when it began in seconds), in order
     t: Array  # time of each control instant, seconds, (N,)
     qpos: Array  # everything's configuration then, (N, nq): for pictures and replays
+    homes: tuple[bool, ...] = ()  # of several pucks: which come home, and ...
+    places_mm: tuple[float, ...] = ()  # ... where each ends
 
     @property
     def home(self) -> bool:
@@ -47,9 +50,11 @@ def of(done: task.Push) -> Result:
     observed = np.array(done.observed)
     puck = qpos[:, done.address : done.address + 2]
     place = 1e3 * np.linalg.norm(puck, axis=1)
+    time = _home_since(place, t - done.began)
+    home = [] if np.isnan(time) else [("home", done.began + time)]
     return Result(
         place_mm=float(place[-1]),
-        time=_home_since(place, t - done.began),
+        time=time,
         left=_on_the_left(observed),
         seen_mm=1e3 * max(done.seen_off),
         lag_mm=1e3 * done.arm.worst,
@@ -59,9 +64,24 @@ def of(done: task.Push) -> Result:
         stopped=done.stopped,
         observed=observed,
         seconds=done.now,
-        phases=done.phases,
+        phases=sorted([*done.phases, *home], key=lambda phase: phase[1]),
         t=t,
         qpos=qpos,
+    )
+
+
+def worst(results: Sequence[Result]) -> Result:
+    """Return the first of several results, with the worst number of all of them."""
+
+    def most(name: str) -> float:
+        return float(np.max([getattr(one, name) for one in results]))  # NaN stays
+
+    numbers = ("place_mm", "time", "seen_mm", "lag_mm", "new")
+    return results[0]._replace(
+        **{name: most(name) for name in numbers},
+        stopped=next(filter(None, (one.stopped for one in results)), ""),
+        homes=tuple(one.home for one in results),
+        places_mm=tuple(one.place_mm for one in results),
     )
 
 

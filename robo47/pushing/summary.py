@@ -14,9 +14,9 @@ from robo47.pushing.result import LAG_MM, SEEN_MM, Result
 from robo47.pushing.task import HOME_MM
 
 HEAD = f"""
-{"":26}{"place":>8}{"time":>8}{"side":>8}{"seen":>8}{"lag":>8}{"new":>8}
-{"":26}{"mm":>8}{"s":>8}{"":8}{"mm":>8}{"mm":>8}"""
-MOMENTS = ("push", "moved by hand", "push again")
+{"":24}{"place":>7}{"time":>7}{"side":>7}{"seen":>7}{"lag":>7}{"new":>7}{"home":>9}
+{"":24}{"mm":>7}{"s":>7}{"":7}{"mm":>7}{"mm":>7}"""
+MOMENTS = ("push", "moved by hand", "push again", "home")
 DRAWN = ("tray", "mark", "eye", "stick", "ball", "puck")  # geoms besides the arm
 KINDS = {
     mujoco.mjtGeom.mjGEOM_BOX: "box",
@@ -27,12 +27,16 @@ KINDS = {
 
 
 def row(name: str, result: Result) -> str:
-    """Return one line of the table."""
+    """Return one line of the table; of several pucks it has the worst numbers."""
     side = "left" if result.left else "right"
-    line = f"{name:26}" + ("   stops" if result.stopped else f"{result.place_mm:8.0f}")
     since = "-" if np.isnan(result.time) else f"{result.time:.1f}"
-    line += f"{since:>8}{side:>8}{result.seen_mm:8.1f}{result.lag_mm:8.1f}"
-    return line + f"{result.new:8.2f}"
+    home = "yes" if result.home else "stops" if result.stopped else "no"
+    if result.homes:
+        home = f"{sum(result.homes)} of {len(result.homes)}"
+    return (
+        f"{name:24}{result.place_mm:7.0f}{since:>7}{side:>7}{result.seen_mm:7.1f}"
+        f"{result.lag_mm:7.1f}{result.new:7.2f}{home:>9}"
+    )
 
 
 def summary(result: Result) -> Summary:
@@ -40,7 +44,7 @@ def summary(result: Result) -> Summary:
     after = []
     if result.moved:
         after.append(
-            f"the puck was moved by {1e3 * guard.MOVED:.0f} mm after"
+            f"a hand moved the puck by {1e3 * guard.MOVED:.0f} mm after"
             f" {guard.BEFORE * push.TICK:.0f} s"
         )
     after.append(f"the guard's limit is {result.limit:.2f}")
@@ -53,11 +57,11 @@ def summary(result: Result) -> Summary:
         number=f"{result.place_mm:.0f} mm",
         of="the distance of the puck from its mark",
         came="The arm goes around a puck on a side that it draws, pushes it home, and"
-        f" does it again when somebody has moved it. It ends {result.place_mm:.0f} mm"
-        " from its mark; the limit is 10 mm."
+        " does it again after a hand has moved the puck. The puck ends"
+        f" {result.place_mm:.0f} mm from its mark; the limit is 10 mm."
         if not result.stopped
         else f"The arm stops: {result.stopped}.",
-        way=f"It goes around the puck on the {side}. The eye is at most"
+        way=f"It goes around the puck on the {side}. The camera is at most"
         f" {result.seen_mm:.1f} mm off, and the ball at most {result.lag_mm:.1f} mm"
         " from its set point.",
         figures=figures(result),
@@ -68,7 +72,7 @@ def figures(result: Result) -> list[tuple[str, str, str]]:
     """Return the measured quantities: (name, value with its unit, limit)."""
     found = [
         (
-            "largest error of the eye",
+            "largest error of the camera",
             f"{result.seen_mm:.1f} mm",
             f"under {SEEN_MM:.0f} mm",
         ),
@@ -84,7 +88,7 @@ def figures(result: Result) -> list[tuple[str, str, str]]:
         ),
     ]
     if not np.isnan(result.time):
-        found.append(("home, and not away again, after", f"{result.time:.1f} s", ""))
+        found.append(("time until the puck stays home", f"{result.time:.1f} s", ""))
     if not result.stopped:
         place = f"{result.place_mm:.0f} mm"
         found.append(("error of the final position", place, f"under {HOME_MM:.0f} mm"))

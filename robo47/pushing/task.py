@@ -95,7 +95,8 @@ class Push:
         for tick in range(guard.TICKS):
             seen = self._look()
             if self.guard.alarm(seen):
-                self.stopped = f"what it sees is new: {self.guard.scores[-1]:.2f}"
+                score = self.guard.scores[-1]
+                self.stopped = f"its observation is new, with a score of {score:.2f}"
                 break
             if tick % self.options.executed == 0:
                 self._draw(seen, tick)
