@@ -4,7 +4,7 @@ What `make capstone` and `make proof` ask of it stands in `robo47.attempt`. A di
 policy learns from demonstrations in a plane (Days 15 to 17) and moves a ball in the
 Panda's hand: an eye sees the puck through a tray of glass (Day 19), the policy draws on
 which side it goes round the puck (Day 17), and what stands between its plans and the
-arm is Day 21's. After three seconds somebody moves the puck aside.
+arm is Day 21's. After three seconds a hand moves the puck aside.
 
 `attempt` is given the functions to do it with, one per name in `USES`: the library's
 (`library()`), a student's, or a mixture.
@@ -47,7 +47,7 @@ from robo47.pushing.task import PUCK, Options, Push
 
 NAME = "the push"
 THING = "puck"
-GOAL = "home within 10 mm, after somebody moved it"
+GOAL = "at home within 10 mm, although a hand moved it"
 MORAL = (
     "Each row has the worst numbers of three pucks. Home is no proof: compare the\n"
     "error of the camera (seen), the lag, and the score of the guard (new)."

@@ -143,8 +143,8 @@ def demonstrations(fns: Any, actions: int) -> Data:
     plans, mask = fns.action_chunks(action, episode, actions)
     plans = np.asarray(plans).reshape(len(seen), -1)
     scalers = fns.fit_scaler(seen), fns.fit_scaler(plans)
-    z = [fns.normalise(x, by) for x, by in zip((seen, plans), scalers, strict=True)]
-    return Data(*z, mask, scalers)
+    z, x0 = fns.normalise(seen, scalers[0]), fns.normalise(plans, scalers[1])
+    return Data(z, x0, mask, scalers)
 
 
 def _trained(

@@ -22,7 +22,7 @@ class Result(NamedTuple):
     lag_mm: float  # worst distance of the ball from its set point
     new: float  # largest distance from the demonstrations, standard deviations
     limit: float  # of the guard
-    moved: bool  # somebody moved the puck
+    moved: bool  # a hand moved the puck
     stopped: str  # why it did not go on; "" where it did
     observed: Array  # observations at the ticks, (ticks, 4)
     seconds: float  # the duration of the task in the simulation
@@ -76,9 +76,12 @@ def worst(results: Sequence[Result]) -> Result:
     def most(name: str) -> float:
         return float(np.max([getattr(one, name) for one in results]))  # NaN stays
 
-    numbers = ("place_mm", "time", "seen_mm", "lag_mm", "new")
     return results[0]._replace(
-        **{name: most(name) for name in numbers},
+        place_mm=most("place_mm"),
+        time=most("time"),
+        seen_mm=most("seen_mm"),
+        lag_mm=most("lag_mm"),
+        new=most("new"),
         stopped=next(filter(None, (one.stopped for one in results)), ""),
         homes=tuple(one.home for one in results),
         places_mm=tuple(one.place_mm for one in results),

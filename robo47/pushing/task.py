@@ -23,7 +23,7 @@ FASTEST = 0.2  # m/s, of the set point
 LOW, HIGH = np.array([-0.27, -0.27]), np.array([0.27, 0.27])  # m, of the set point
 ROUND_SECONDS = 2.5  # s, in which the ball goes around the puck
 PARTS = 5  # of a tick, when it looks ahead
-HAND_SECONDS = 0.3  # s in which somebody moves the puck, at a right angle to its way
+HAND_SECONDS = 0.3  # s in which a hand moves the puck, at a right angle to its way
 
 HOME_MM = 10.0  # mm: a puck closer to its mark than this is home
 
@@ -41,7 +41,7 @@ class Options(NamedTuple):
     late: int = 1  # ticks from a look to the plan that was drawn from it
     ahead: bool = True  # a late plan is drawn for where things will be
     forward: bool = True  # the spring's damper is given the set point's velocity
-    moved: bool = True  # somebody moves the puck
+    moved: bool = True  # a hand moves the puck
     draw: int = 0  # seed of the draws
 
 
@@ -134,7 +134,7 @@ class Push:
         return np.asarray(self.fns.keep_inside(self.set_point, v, LOW, HIGH, push.TICK))
 
     def _hand(self, tick: int) -> Array:
-        """Return the velocity at which somebody moves the puck in a tick, (2,)."""
+        """Return the velocity at which a hand moves the puck in a tick, (2,)."""
         t = tick * push.TICK - guard.BEFORE * push.TICK
         inside = -1e-9 < t < HAND_SECONDS - 1e-9
         if not (self.options.moved and inside):
@@ -150,7 +150,7 @@ class Push:
         return guard.MOVED / HAND_SECONDS * self.across
 
     def _move(self, v: Array, hand: Array) -> None:
-        """Move the set point for a tick, and the puck if somebody does."""
+        """Move the set point for a tick, and the puck if the hand does."""
         start = self.set_point
 
         def set_point(t: float) -> tuple[Array, Array]:
