@@ -4,7 +4,7 @@ All learn from the same demonstrations in the plane of `robo47.push`, with funct
 Days 15 to 17. A policy is trained once for the functions that train it and is then
 kept.
 
-Metres, seconds; observations (n, 4) and actions (n, 2) are those of `robo47.push`.
+Metres, seconds; `robo47.push` defines the observations (n, 4) and actions (n, 2).
 """
 
 from collections.abc import Callable, Iterable, Iterator

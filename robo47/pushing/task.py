@@ -1,6 +1,6 @@
 """The push on the arm: an approach, then ticks of looking, drawing and moving.
 
-Metres, radians, seconds, N m; positions of ball and puck are relative to home, (2,).
+Metres, radians, seconds, N m; positions of sphere and puck are relative to home, (2,).
 """
 
 from typing import Any, NamedTuple
@@ -21,7 +21,7 @@ RATE = 100.0  # Hz, of the controller
 
 FASTEST = 0.2  # m/s, of the set point
 LOW, HIGH = np.array([-0.27, -0.27]), np.array([0.27, 0.27])  # m, of the set point
-ROUND_SECONDS = 2.5  # s, in which the ball goes around the puck
+ROUND_SECONDS = 2.5  # s, in which the sphere goes around the puck
 PARTS = 5  # of a tick, when it looks ahead
 HAND_SECONDS = 0.3  # s in which a hand moves the puck, at a right angle to its way
 
@@ -77,7 +77,7 @@ class Push:
         self.now = 0.0
 
     def approach(self) -> None:
-        """Move the ball to home along a joint trajectory."""
+        """Move the sphere to home along a joint trajectory."""
         q0 = self.joints()
         q1, _ = self.arm.waypoint(self.arm.pose_at(np.zeros(2)), READY_Q)
         v, a = (SPEED * most for most in (simulate.SPEED_LIMITS, simulate.ACC_LIMITS))
@@ -85,7 +85,7 @@ class Push:
         self.phases.append(("approach", self.now))
         self._run(self.arm.move(q0, q1, T), np.ceil(T * RATE) / RATE)
         self.posture = self.joints()
-        self.set_point = self.ball()
+        self.set_point = self.sphere()
         self.arm.worst = 0.0
 
     def push(self) -> None:
@@ -103,11 +103,11 @@ class Push:
             self._move(self._action(tick), self._hand(tick))
 
     def _look(self) -> Array:
-        """Return the observation: where ball and puck are, (4,)."""
+        """Return the observation: where sphere and puck are, (4,)."""
         truth = self.puck()
         found = truth if self.options.known_puck else self.eye.look(self.data)
         self.seen_off.append(float(np.linalg.norm(found - truth)))
-        self.observed.append(np.append(self.ball(), found))
+        self.observed.append(np.append(self.sphere(), found))
         return self.observed[-1]
 
     def _draw(self, seen: Array, tick: int) -> None:
@@ -145,7 +145,7 @@ class Push:
             self.phases.append(("moved by hand", self.now))
             x, y = self.puck()
             across = np.array([-y, x]) / max(np.hypot(x, y), 1e-9)
-            away = np.sign((self.puck() - self.ball()) @ across) or 1.0
+            away = np.sign((self.puck() - self.sphere()) @ across) or 1.0
             self.across = away * across
         return guard.MOVED / HAND_SECONDS * self.across
 
@@ -181,9 +181,9 @@ class Push:
         """Return the measured configuration, (7,)."""
         return self.data.qpos[simulate.addresses(self.model)[0]].copy()
 
-    def ball(self) -> Array:
-        """Return the position of the ball from the measured configuration, (2,)."""
-        return self.arm.ball(self.joints())
+    def sphere(self) -> Array:
+        """Return the position of the sphere from the measured configuration, (2,)."""
+        return self.arm.sphere(self.joints())
 
     def puck(self) -> Array:
         """Return the true position of the puck, (2,)."""
