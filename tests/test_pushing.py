@@ -159,6 +159,10 @@ class TestPlans:
         assert late.home
         assert not blind.home
 
+    def test_that_arrive_after_the_next_one_are_refused(self, quick):
+        with pytest.raises(ValueError, match="late is 5; expected 0 to 4"):
+            pushing.attempt(FNS, late=5)
+
     def test_are_the_same_for_the_same_functions_and_trained_once(self, right):
         first, again = pushing.policy(FNS), pushing.policy(pushing.library())
         assert first.net is again.net
@@ -229,7 +233,7 @@ class TestTheAblations:
 
         assert done("puck's position given").seen_mm == 0.0
         assert done("no blur in the camera").seen_mm > 12.0
-        assert done("no forward velocity").lag_mm > 25.0
+        assert done("no feedforward velocity").lag_mm > 25.0
         beside = done("camera 30 mm off")
         assert not beside.home
         assert beside.new < beside.limit  # a guard sees what is new, not what is wrong

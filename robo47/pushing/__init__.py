@@ -213,7 +213,7 @@ def ablations(fns: Any) -> dict[str, tuple[Any, dict[str, Any]]]:
         "whole plans of 8": {"executed": 8},
         "plans 0.3 s late": {"late": 3},
         "late, not predicted": {"late": 3, "ahead": False},
-        "no forward velocity": {"forward": False},
+        "no feedforward velocity": {"forward": False},
         "a puck of 400 g": {"mass": 0.4},
         "damping of 2 N s/m": {"damping": 2.0},
     }

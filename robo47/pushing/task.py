@@ -23,7 +23,7 @@ FASTEST = 0.2  # m/s, of the set point
 LOW, HIGH = np.array([-0.27, -0.27]), np.array([0.27, 0.27])  # m, of the set point
 ROUND_SECONDS = 2.5  # s, in which the sphere goes around the puck
 PARTS = 5  # of a tick, when it looks ahead
-HAND_SECONDS = 0.3  # s in which a hand moves the puck, at a right angle to its way
+HAND_TICKS = 3  # in which a hand moves the puck, at a right angle to its way home
 
 HOME_MM = 10.0  # mm: a puck closer to its mark than this is home
 
@@ -56,7 +56,15 @@ class Push:
             puck: where the puck stands, (2,).
             limit: of the guard's scores.
             options: changes of the usual attempt.
+
+        Raises:
+            ValueError: a plan that arrives after the next one was drawn.
         """
+        if not 0 <= options.late <= options.executed:
+            raise ValueError(
+                f"late is {options.late}; expected 0 to {options.executed}, the number"
+                " of actions of a plan that are executed"
+            )
         self.fns, self.options = fns, options
         self.model = scene.tray(puck, mass=options.mass, damping=options.damping)
         self.data = scene.start(self.model)
@@ -135,19 +143,18 @@ class Push:
 
     def _hand(self, tick: int) -> Array:
         """Return the velocity at which a hand moves the puck in a tick, (2,)."""
-        t = tick * push.TICK - guard.BEFORE * push.TICK
-        inside = -1e-9 < t < HAND_SECONDS - 1e-9
-        if not (self.options.moved and inside):
+        since = tick - guard.BEFORE
+        if not (self.options.moved and 0 <= since < HAND_TICKS):
             if self.phases[-1][0] == "moved by hand":
                 self.phases.append(("push again", self.now))
             return np.zeros(2)
-        if t < 1e-9:
+        if since == 0:
             self.phases.append(("moved by hand", self.now))
             x, y = self.puck()
             across = np.array([-y, x]) / max(np.hypot(x, y), 1e-9)
             away = np.sign((self.puck() - self.sphere()) @ across) or 1.0
             self.across = away * across
-        return guard.MOVED / HAND_SECONDS * self.across
+        return guard.MOVED / (HAND_TICKS * push.TICK) * self.across
 
     def _move(self, v: Array, hand: Array) -> None:
         """Move the set point for a tick, and the puck if the hand does."""
