@@ -254,16 +254,37 @@ def touching(phi: float) -> np.ndarray:
     return np.array([0.0, 0.0, TOUCH * np.cos(phi), TOUCH * np.sin(phi)])
 
 
+def angle_after(parts: int) -> float:
+    """Return the contact angle after a push of 40 mm from 0.3 rad, radians."""
+    along = np.tile([0.1, 0.0], (4, 1))  # 4 actions of 10 mm
+    x, y, u, v = push_ahead(touching(0.3), along, TICK, parts, TOUCH)
+    return np.arctan2(v - y, u - x)
+
+
 def check_push(lab: Lab) -> None:
-    """Compare the predicted contact angle with the closed form of Day 15."""
-    along = np.tile([0.1, 0.0], (4, 1))  # 40 mm
-    exact = cloning.contact_angle(0.3, 0.04, TOUCH)
-    print(f"  closed form           {exact:.6f} rad")
+    """Check the entries of a plan, and compare a push with Day 15's closed form."""
+    plan = np.arange(6.0).reshape(3, 2)
+    rows = [plan_entry(plan, 7, now)[0] / 2 for now in range(7, 12)]
+    lab.check("plan_entry: the rows", np.subtract(rows, [0, 1, 2, 2, 2]))
+    off = angle_after(500) - cloning.contact_angle(0.3, 0.04, TOUCH)
+    lab.check("push_ahead in many parts - the closed form", off, 1e-4)
+    free = np.array([0.0, 0.0, 0.2, 0.0])
+    away = push_ahead(free, np.array([[-0.1, 0.1]]), TICK, PARTS, TOUCH)
+    lab.check("push_ahead: a free puck", away - [-0.01, 0.01, 0.2, 0.0])
+
+
+def check_spring(lab: Lab) -> None:
+    """Check that the spring balances the damper."""
+    K, inertia, v = 600.0, np.array([0.5, 5.0, 12.0]), -0.1
+    lag = np.array([lag_behind(v, K, one) for one in inertia])
+    lab.check("lag_behind: K e - D v, N", K * lag - 2 * np.sqrt(K * inertia) * v)
+
+
+def contact_angles() -> None:
+    """Print the contact angle after a push, by the number of parts of an action."""
+    print(f"  closed form            {cloning.contact_angle(0.3, 0.04, TOUCH):.6f} rad")
     for parts in (1, PARTS, 500):
-        x, y, u, v = push_ahead(touching(0.3), along, TICK, parts, TOUCH)
-        angle = np.arctan2(v - y, u - x)
-        print(f"  {parts:3} parts of an action {angle:.6f} rad")
-    lab.check("push_ahead in many parts - the closed form", angle - exact, 1e-4)
+        print(f"  {parts:3} parts of an action {angle_after(parts):.6f} rad")
 
 
 def push_errors(world) -> tuple[np.ndarray, np.ndarray]:
@@ -487,24 +508,26 @@ def main() -> int:
     for name in OWN:
         setattr(fns, name, globals()[name])
 
-    lab.step("1. A speed limit and a workspace")
+    lab.step("1. Your functions")
     check_limits(lab, rng)
+    check_push(lab)
+    check_guard(lab)
+    check_spring(lab)
+    check_league(lab, rng)
+    if lab.failed:
+        print("\nNot measured, because a check above failed. ARGS=--try goes on.")
+        return lab.finish()
+
+    lab.step("2. A workspace")
     rotated(lab)
     walled(lab, start)
 
-    lab.step("2. Where the puck will be")
-    check_push(lab)
+    lab.step("3. Where the puck will be")
+    contact_angles()
     predicted(lab)
-
-    lab.step("3. Ranks, alarms and comparisons")
-    check_guard(lab)
-    check_league(lab, rng)
 
     lab.step("4. A spring trails behind")
     spring(lab, fns)
-    if lab.failed:
-        print("\nNot trained, because a check above failed. ARGS=--try trains anyway.")
-        return lab.finish()
 
     lab.step(f"5. Plans that arrive {LATE} ticks late")
     policy = pushing.policy(fns)
