@@ -27,7 +27,7 @@ def test_a_component_that_a_sum_omits_is_not_said_to_be_in_a_wrong_place():
         return back
 
     says = told(1, "1.3", inverse=inverse)
-    assert "is missing, as if it were 0" in says
+    assert "omits one entry of a list or vector, as if it were 0" in says
     assert "wrong place" not in says
     assert "wrong order" not in says
 
