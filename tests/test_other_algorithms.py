@@ -124,4 +124,4 @@ def test_how_an_answer_grows_is_said_of_the_size_that_was_asked():
         s = np.linalg.svd(J, compute_uv=False)
         return float(np.prod(s) ** (1 / len(s)))
 
-    assert "If J (6x7) is doubled" in told(3, "3.8", manipulability=manipulability)
+    assert "If `J` (6x7) is doubled" in told(3, "3.8", manipulability=manipulability)

@@ -31,15 +31,15 @@ def told(task, name, student, body):
             "mlp",
             "h = np.tanh(x @ W1) + b1\nh = np.tanh(h @ W2) + b2\nreturn h @ W3 + b3",
             "slip-bracket",
-            "in the wrong place in the steps "
-            '"outputs of the first layer" and "outputs of the second layer".',
+            "a solution whose code for the outputs of the first layer and for the "
+            "outputs of the second layer opens or closes a bracket in the wrong place.",
         ),
         (
             "15.5",
             "mse",
             "e = pred - target\nreturn np.mean(e) ** 2, 2 * e / e.size",
             "slip-bracket",
-            "`return (np.mean(e) ** 2, 2 * e / e.size)`, a bracket opens or closes",
+            "`return (np.mean(e) ** 2, 2 * e / e.size)`. Largest error",
         ),
         (
             "15.3",
@@ -88,7 +88,7 @@ def test_one_result_that_a_mistake_only_nearly_gives_is_not_told_by_it():
             lambda x, d: (x.sum(), np.mean(d**2)),
             "summed",
             "One mistake explains the mean: the numbers are summed up. The square is "
-            "right.",
+            "correct.",
         ),
         (
             lambda x, d: (x.sum(), np.mean(d) ** 2),

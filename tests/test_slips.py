@@ -201,7 +201,8 @@ def test_an_answer_that_is_infinite_is_not_told_how_far_it_is_off():
 
     says = told(12, "12.8", path_accel_bounds=path_accel_bounds)
     assert (
-        "`a` were replaced by its absolute value. The reference solution with" in says
+        "replaces every entry of `a` with its absolute value. The reference solution"
+        in says
     )
 
 

@@ -94,9 +94,9 @@ class Mutant:
                 return node
         return None
 
-    def around(self) -> list[ast.expr]:
-        """Return the changed expression and those around it, while it is made."""
-        at, new = self.edits[0]
+    def around(self, k: int = 0) -> list[ast.expr]:
+        """Return the k-th changed expression and those around it, while it is made."""
+        at, new = self.edits[k]
         found = [new] * isinstance(new, ast.expr)
         while found and at and isinstance(at.parent, ast.expr):
             found.append(at.parent)

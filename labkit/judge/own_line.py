@@ -68,13 +68,9 @@ class OwnFunction:
             mine = self._own_expressions.get(text)
             if mine is None:
                 continue
-            large = sum(1 for _ in ast.walk(node)) >= LEAST
-            if (
-                large
-                and text not in self._right
-                and len(one := ast.unparse(mine)) <= most
-            ):
-                found = one
+            if _tells(node) and text not in self._right:
+                one = ast.unparse(mine)
+                found = one if len(one) <= most else found
         return found
 
     @cached_property
@@ -131,6 +127,11 @@ def _statements(function: ast.FunctionDef) -> Iterator[ast.stmt]:
     for node in (inner for one in body for inner in ast.walk(one)):
         if isinstance(node, ast.stmt):
             yield node
+
+
+def _tells(node: ast.expr) -> bool:
+    """Return whether an expression joins two names or numbers: -x says too little."""
+    return sum(isinstance(n, ast.Name | ast.Constant) for n in ast.walk(node)) > 1
 
 
 def _head(statement: ast.stmt) -> ast.AST:

@@ -11,7 +11,7 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from labkit.judge.answers import SYMBOLS, capitalised
+from labkit.judge.answers import SYMBOLS, capitalised, listed
 from labkit.judge.hypothesis import evidence
 from labkit.judge.mistake import REDONE, Finding
 from labkit.judge.mutant import Mutant
@@ -21,9 +21,7 @@ from labkit.lesson.lab_module import definition
 from labkit.lesson.starter import function_lines
 
 MODULES = ("np", "se3", "screws", "math")
-EVERYWHERE = (
-    ", in every place of its kind"  # of a change that is made in several places
-)
+EVERYWHERE = ", in every line of its kind"  # of a change that is made in several places
 
 # What "your code" does, where the place of a change says no more.
 SAYS = {
@@ -83,7 +81,7 @@ def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
 
 def _in_own_words(m: Any, mutant: Mutant) -> bool:
     """Return whether the student's function has a mutant's line or expression."""
-    return bool(own_line(m, mutant) or own_expression(m, mutant))
+    return bool(own_line(m, mutant) or own_expressions(m, mutant))
 
 
 def _sentences(m: Any, mutant: Mutant) -> str:
@@ -92,8 +90,9 @@ def _sentences(m: Any, mutant: Mutant) -> str:
         text = f": `{line.text}`" if len(line.text) <= LONG else ""
         where = f"The wrong line is line {line.number}{text}."
         return f"Your code {what(mutant, line)}. {where}"
-    if text := own_expression(m, mutant):
-        return f"Your code {what(mutant)}. The wrong expression is `{text}`."
+    if texts := own_expressions(m, mutant):
+        verb = "expression is" if len(texts) == 1 else "expressions are"
+        return f"Your code {what(mutant)}. The wrong {verb} {listed(texts)}."
     if tells(mutant):
         return f"{capitalised(told(m, mutant))}."
     # Another algorithm may have no such bracket or number, although its output is the
@@ -154,8 +153,9 @@ def told(m: Any, mutant: Mutant) -> str:
     if line := own_line(m, mutant):
         code = f", `{line.text}`" if len(line.text) <= LONG else ""
         return f"in line {line.number}{code}, your code {what(mutant, line)}"
-    if text := own_expression(m, mutant):
-        return f"in `{text}`, your code {what(mutant)}"
+    if texts := own_expressions(m, mutant):
+        does = what(mutant).removesuffix(EVERYWHERE)
+        return f"in {listed(texts)}, your code {does}"
     does = f"{what(mutant)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
         return f"your code {does}"
@@ -294,13 +294,17 @@ def glosses(mutant: Mutant) -> list[str]:
     return list(steps) if all(steps) else []
 
 
-def own_expression(m: Any, mutant: Mutant) -> str:
-    """Return the student's expression that has a mutant's change; "" without one."""
-    own = _own_function(m, mutant)
-    if own is None or len(mutant.edits) > 1:
-        return ""
+def own_expressions(m: Any, mutant: Mutant) -> list[str]:
+    """Return the student's expressions that have a mutant's changes, as quotations.
+
+    There are none where one of the changes is not in the student's function.
+    """
+    if (own := _own_function(m, mutant)) is None:
+        return []
     with mutant.made():
-        return own.expression(mutant.around(), LONG)
+        around = map(mutant.around, range(len(mutant.edits)))
+        texts = [own.expression(one, LONG) for one in around]
+    return [f"`{one}`" for one in dict.fromkeys(texts)] if all(texts) else []
 
 
 def is_known(m: Any, mutant: Mutant) -> bool:
