@@ -155,16 +155,16 @@ def _compiled(source, name):
 
 def _shares(value, kept, args):
     """Return what an answer is a part of: other answers, and arguments' places."""
-    if not isinstance(value, np.ndarray):
-        return [], []
-    another = any(map(np.may_share_memory, kept, itertools.repeat(value)))
-    kept.append(value)
-    handed = [
-        i
-        for i, arg in enumerate(args)
-        if isinstance(arg, np.ndarray) and np.may_share_memory(value, arg)
-    ]
+    own = _arrays_of(value)
+    another = _overlap(own, kept)
+    kept.extend(own)
+    handed = [i for i, arg in enumerate(args) if _overlap(own, _arrays_of(arg))]
     return ["another answer"] * another, handed
+
+
+def _overlap(some, others):
+    """Return whether an array of some is a part of one of the others."""
+    return any(itertools.starmap(np.may_share_memory, itertools.product(some, others)))
 
 
 def _describe(error, script):

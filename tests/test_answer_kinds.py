@@ -101,7 +101,7 @@ class TestATruthValue:
             (
                 lambda x, sure: x > 0.0,
                 "too-often-true",
-                "cases where False is expected",
+                "calls; expected False.",
             ),
             (lambda x, sure: x, "not-true-or-false", "; expected True or False."),
             (lambda x, sure: "yes", "not-an-array", "'yes'; expected True or False"),
@@ -189,13 +189,13 @@ class TestAPath:
             (
                 lambda s, n: np.arange(1, n)[:, None] * s,
                 "one-too-few",
-                "The last way point is missing. Your path has a wrong number of "
+                "The last way point is missing. Your path has the wrong number of "
                 "waypoints in 5 of 6 calls. The reference solution with this mistake",
             ),
             (
                 lambda s, n: np.arange(0, n + 2)[:, None] * s,
                 "shape",
-                "Your path has a wrong number of waypoints in all 6 calls.",
+                "Your path has the wrong number of waypoints in all 6 calls.",
             ),
             (
                 lambda s, n: np.arange(1, n + 1) * s[0],

@@ -146,7 +146,8 @@ class TestAMistakeThatStops:
             Scalar(), lambda x: 2.0 * x, lambda rng: [(float(x),) for x in range(6)]
         )
         if wrongs:
-            wrongs.__doc__ = "one: your code adds 1\n    two: your code divides by x"
+            says = "one: your code adds 1\n    two: your code divides by x"
+            wrongs.__doc__ = wrongs.__doc__ or says
             row.wrongs(wrongs)
         if wrong:
             row.wrong("three", "your code does something")(wrong)
@@ -157,6 +158,16 @@ class TestAMistakeThatStops:
         assert "its @row.wrongs stops with ZeroDivisionError: float division" in told
         assert "test_author_faults.py, line " in told
         assert "so none of its 2 mistakes has an answer to that question" in told
+
+    def test_that_has_no_sentence_is_told(self):
+        def wrongs(x):
+            """one: your code adds 1
+            one 2:
+            """
+            return {"one": x + 1.0, "one 2": 1.0 + x}
+
+        (told,) = self.row(wrongs)
+        assert "its @row.wrongs has no sentence for one 2, so the checker" in told
 
     def test_alone_is_none_where_it_is_a_function_of_its_own(self):
         assert self.row(lambda x: {"one": x + 1.0, "two": lambda: 2.0 / x}) == []

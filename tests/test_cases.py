@@ -42,13 +42,15 @@ def told(row, function, known=None):
 
 
 def test_right_and_wrong_cases_are_listed():
-    says = "The result is right for positive numbers. It is wrong for negative numbers."
+    says = (
+        "The result is correct for positive numbers. It is wrong for negative numbers."
+    )
     assert told(toy(), lambda x: x) == says
     # Right too where x is above -1: not in every call of the case.
     some = told(toy(), lambda x: x / 2 if -1 < x < 0 else x)
     assert some == (
-        "The result is right for positive numbers. It is wrong in some calls with "
-        "negative numbers."
+        "The result is correct for positive numbers. Some of the calls with "
+        "negative numbers are wrong."
     )
 
 
@@ -73,8 +75,8 @@ def test_fresh_inputs_are_drawn_only_while_a_case_may_be_right():
 def test_an_answer_that_is_missing_or_not_finite_is_wrong(bad):
     says = told(toy(), lambda x: x / 2 if x < 0 else (bad if x > 4 else x))
     assert says == (
-        "The result is right for negative numbers. It is wrong in some calls with "
-        "positive numbers."
+        "The result is correct for negative numbers. Some of the calls with "
+        "positive numbers are wrong."
     )
 
 
@@ -88,7 +90,7 @@ def test_a_case_that_no_generator_draws_often_is_not_listed():
     row.cases(one=lambda x: x == -1, others=lambda x: x != -1)
     row.rare(lambda rng: [(-1.0,)])
     says = told(row, lambda x: -0.5 if x == -1 else 99.0)
-    assert says == "The result is right for one. It is wrong for others."
+    assert says == "The result is correct for one. It is wrong for others."
 
 
 def test_only_is_said_where_every_other_call_is_right():
@@ -112,7 +114,8 @@ def test_adjacent_ranges_with_the_same_verdict_are_one():
     })  # fmt: skip
     says = told(row, lambda x: x / 2 if x < 0 else 99.0)
     assert says == (
-        "The result is right for numbers below 0 m. It is wrong for numbers above 0 m."
+        "The result is correct for numbers below 0 m. "
+        "It is wrong for numbers above 0 m."
     )
 
 
@@ -142,7 +145,7 @@ def test_the_list_that_leaves_the_fewest_calls_open_is_told():
     row.cases(small_numbers=lambda x: abs(x) < 3, large_numbers=lambda x: abs(x) >= 3)
     row.cases(negative_numbers=lambda x: x < 0, positive_numbers=lambda x: x > 0)
     assert told(row, lambda x: x).startswith(
-        "The result is right for positive numbers."
+        "The result is correct for positive numbers."
     )
 
 
@@ -213,20 +216,20 @@ NAMES = {
 }
 OF_THE_REVIEW = [
     (11, only_the_fastest,
-     "The result is right for links that touch or overlap and motions of length 0. It "
-     "is wrong for steps in which several joints move. It is wrong in some calls with "
-     "steps in which one joint moves and steps "
-     "that reach the end of the motion."),
-    (11, further, "It is wrong in some calls with steps that end before"),
-    (11, first_reach, "The result is right for steps with equal radii"),
+     "The result is correct for links that touch or overlap and motions of length 0. "
+     "It is wrong for steps in which several joints move. Some of the calls "
+     "with steps in which one joint moves and some of those with steps that reach the "
+     "end of the motion are wrong."),
+    (11, further, "Some of the calls with steps that end before"),
+    (11, first_reach, "The result is correct for steps with equal radii"),
     (11, steep_only,
-     "The result is right for velocities that are allowed and gradients of 0. It is "
-     "wrong in some calls with "
-     "velocities that are too fast, at a positive distance; and velocities that are "
-     "too fast, at a distance of 0 or less."),
+     "The result is correct for velocities that are allowed and gradients of 0. Some "
+     "of the calls with velocities that are too fast, at a positive distance; and "
+     "some of those with velocities that are too fast, at a distance of 0 or less are "
+     "wrong."),
     (11, shallow, "points beyond three faces. It is wrong for points in the box."),
-    (12, long_edges, "It is wrong in some calls with edges that "),
-    (12, coarse, "It is wrong in some calls with edges that start"),
+    (12, long_edges, "Some of the calls with edges that "),
+    (12, coarse, "Some of the calls with edges that start"),
     (12, capped, "The result is wrong in some calls of every case"),
 ]  # fmt: skip
 

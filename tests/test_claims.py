@@ -113,8 +113,8 @@ def test_a_range_is_said_where_an_angle_has_one():
         return right(1, "Rz")(theta % np.pi)
 
     says = told(1, "1.2", Rz=Rz)
-    assert "whenever theta" not in says
-    assert "The result is right for theta between 0 and pi." in says
+    assert "whenever `theta`" not in says
+    assert "The result is correct for `theta` between 0 and pi." in says
 
 
 def test_a_small_angle_s_own_formula_never_passes_by_chance():
@@ -191,7 +191,7 @@ def test_the_one_in_a_camera_matrix_is_not_doubled():
         p = points @ T_cam_world[:3, :3].T + 2 * T_cam_world[:3, 3]
         return (p @ K.T)[:, :2] / (p @ K.T)[:, 2:]
 
-    assert "K doubled" not in told(10, "10.2", project=project)
+    assert "`K` is doubled" not in told(10, "10.2", project=project)
 
 
 def test_two_powers_of_one_term_are_no_two_mistakes():
@@ -266,7 +266,7 @@ def test_a_last_entry_of_several_sizes_is_called_so():
         return found
 
     says = told(9, "9.1", backward_difference=backward_difference)
-    assert "In `backward_difference`, all entries are right except the last" in says
+    assert "In `backward_difference`, all entries are correct except the last" in says
 
 
 def test_a_mirror_of_axes_in_one_plane_does_not_pass():
@@ -299,7 +299,7 @@ def test_a_range_holds_whatever_the_other_arguments_are():
 
     says = told(7, "7.4", trapezoidal_profile=trapezoidal_profile)
     assert "between" not in says
-    assert says.endswith("The result is right whenever v^2 / a <= L.")
+    assert says.endswith("The result is correct whenever v^2 / a <= L.")
 
 
 def test_a_list_of_discs_is_not_right_whenever_it_is_0():
@@ -309,7 +309,7 @@ def test_a_list_of_discs_is_not_right_whenever_it_is_0():
         i, q, free = grow(tree, sample, step, world)
         return (i, q, True) if free else (-1, tree[i], False)
 
-    assert "whenever world" not in told(12, "12.3", extend=extend)
+    assert "whenever `world`" not in told(12, "12.3", extend=extend)
 
 
 def test_a_truth_value_does_not_grow_with_what_is_doubled():

@@ -12,6 +12,9 @@ from catalogue import STATUS, entries, run_as_lab, told
 from whole import asked, changed
 
 from conftest import days
+from labkit.author import stops
+from labkit.judge.guard import quiet
+from labkit.judge.row import rows_of
 
 pytestmark = pytest.mark.kit
 
@@ -45,6 +48,21 @@ def test_the_catalogue_has_files_of_every_task(day):
     asked = {task.id for task in day.tasks}
     judged = {t for one in entries(day, "wrong", "close") for t in one.tasks}
     assert judged == asked
+
+
+@pytest.mark.parametrize("day", DAYS, ids=lambda day: f"day{day.number}")
+def test_each_line_of_a_table_of_mistakes_has_a_sentence_and_an_answer(day):
+    names = [name for name, _ in asked(day, functions(day), "verdicts")]
+    rows = rows_of(day)
+    with quiet():
+        faults = [
+            f"{name}: {fault}"
+            for name in names
+            if name in rows
+            for table in rows[name].tables
+            for fault, _ in stops.of_table(table, rows[name].ask.main)
+        ]
+    assert not faults, "\n".join(faults)
 
 
 @pytest.mark.parametrize(("day", "some"), FUNCTIONS)

@@ -208,6 +208,9 @@ def test_each_kind_says_what_is_wrong_in_its_own_words(kind, S, T, word):
         (0.1 + 0.2, "0.3"),  # what a sum leaves in the last digits is not typed
         (1 / 3, "0.3333333333333333"),
         (5e-324, "5e-324"),
+        (1e14, "1e14"),
+        (-2.5e16, "-2.5e16"),
+        (1234567.0, "1234567.0"),
     ],
 )
 def test_inputs_are_shown_as_python_reads_them_back(x, shown):

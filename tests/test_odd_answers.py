@@ -123,19 +123,19 @@ class TestEntriesInAnotherOrder:
         [
             (
                 np.transpose,
-                "calls. All entries are right, but the result is transposed.",
+                "calls. All entries are correct, but the result is transposed.",
             ),
             (
                 lambda Y: Y.reshape(Y.shape[::-1]),
-                "All entries and their order are right. Only the shape is wrong.",
+                "All entries and their order are correct. Only the shape is wrong.",
             ),
             (
                 lambda Y: Y.ravel(),
-                "All entries and their order are right. Only the shape is wrong.",
+                "All entries and their order are correct. Only the shape is wrong.",
             ),
             (
                 lambda Y: np.sort(Y, axis=None).reshape(Y.shape[::-1]),
-                "All entries are right, but their order is wrong in the result.",
+                "All entries are correct, but their order is wrong in the result.",
             ),
         ],
     )
@@ -145,7 +145,7 @@ class TestEntriesInAnotherOrder:
     def test_are_told_of_the_result_that_has_them(self):
         kind = Scalar(called="the sum"), Matrix((None, None), called="the product")
         says = self.said(lambda Y: (Y[0], Y[1].T), kind, lambda X: (np.sum(X), 2.0 * X))
-        assert "All entries are right, but the product is transposed." in says
+        assert "All entries are correct, but the product is transposed." in says
 
     def test_are_not_told_where_one_call_has_others(self):
         says = self.said(lambda Y: Y.T + (len(Y) == 1))
@@ -162,7 +162,7 @@ class TestEntriesInAnotherOrder:
 
         row = row_of(Matrix((None, 2)), truth, inputs)
         says = told(row, lambda X: truth(X)[np.argsort(X[:, 0])][::-1]).message
-        known = "In every wrong call, the numbers are right, but their order is wrong."
+        known = "In every wrong call, the numbers are correct, but their order"
         assert (known in says) == is_told
 
 

@@ -29,7 +29,7 @@ def test_a_component_that_a_sum_omits_is_not_said_to_be_in_a_wrong_place():
         return back
 
     says = told(1, "1.3", inverse=inverse)
-    assert "is missing, as if it were 0" in says
+    assert "omits one entry of a list or vector, as if it were 0" in says
     assert "wrong place" not in says
     assert "wrong order" not in says
 
@@ -178,4 +178,4 @@ def test_how_an_answer_grows_is_said_of_the_size_that_was_asked():
         s = np.linalg.svd(J, compute_uv=False)
         return float(np.prod(s) ** (1 / len(s)))
 
-    assert "If J (6x7) is doubled" in told(3, "3.8", manipulability=manipulability)
+    assert "If `J` (6x7) is doubled" in told(3, "3.8", manipulability=manipulability)

@@ -179,7 +179,11 @@ ONE_EACH = np.arange(8) == np.arange(6)[:, None]
         (MASKS.astype(int), "", ""),
         (~MASKS, "inverted", "our code swaps True and False"),
         (np.ones_like(MASKS), "ignores-its-input", "the same for every input"),
-        (MASKS | ONE_EACH, "too-often-true", "returned True in 3 cases where"),
+        (
+            MASKS | ONE_EACH,
+            "too-often-true",
+            "returned True in 3 entries; expected False.",
+        ),
         (MASKS & ~ONE_EACH, "too-seldom-true", "Your function returned False"),
         (
             MASKS * 0.5,

@@ -1,6 +1,7 @@
 """A mutant's sentence points at the student's own line, in the student's own words."""
 
 import ast
+import re
 from dataclasses import replace
 
 import inprocess
@@ -112,15 +113,15 @@ def closest_points_segments(a0, a1, b0, b1):
         (
             "(bb * s + ff) / ee",
             "(bb * s + ff) / aa",
-            "`t = np.clip((bb * s + ff) / aa, 0, 1) if ee > 0 else 0.0`, `aa` "
-            "(squared length of the first segment) is used where another value "
-            "(squared length of the second segment) belongs",
+            "Your code uses `aa` (squared length of the first segment) where another "
+            "value (squared length of the second segment) belongs. The wrong line is "
+            "line N: `t = np.clip((bb * s + ff) / aa, 0, 1) if ee > 0 else 0.0`.",
         ),
         (
             "(bb * s + ff) / ee",
             "(bb * s - ff) / ee",
-            "`t = np.clip((bb * s - ff) / ee, 0, 1) if ee > 0 else 0.0`, the sign of "
-            "`ff` is reversed",
+            "Your code reverses the sign of `ff`. The wrong line is line N: "
+            "`t = np.clip((bb * s - ff) / ee, 0, 1) if ee > 0 else 0.0`.",
         ),
     ],
 )
@@ -128,8 +129,7 @@ def closest_points_segments(a0, a1, b0, b1):
 def test_a_mutant_is_told_by_the_students_line(student, right, wrong, says):
     own = SEGMENTS.replace(right, wrong)
     message = told(11, "11.1", "closest_points_segments", student, own)
-    assert says in message
-    assert "n line " in message
+    assert re.sub(r"line \d+", "line N", message).startswith(says)
 
 
 @pytest.mark.kit

@@ -31,15 +31,15 @@ def told(task, name, student, body):
             "mlp",
             "h = np.tanh(x @ W1) + b1\nh = np.tanh(h @ W2) + b2\nreturn h @ W3 + b3",
             "slip-bracket",
-            "in the wrong place in the steps "
-            '"outputs of the first layer" and "outputs of the second layer".',
+            "a solution whose code for the outputs of the first layer and for the "
+            "outputs of the second layer opens or closes a bracket in the wrong place.",
         ),
         (
             "15.5",
             "mse",
             "e = pred - target\nreturn np.mean(e) ** 2, 2 * e / e.size",
             "slip-bracket",
-            "`return (np.mean(e) ** 2, 2 * e / e.size)`, a bracket opens or closes",
+            "`return (np.mean(e) ** 2, 2 * e / e.size)`. Largest error",
         ),
         (
             "15.3",
@@ -92,7 +92,7 @@ def test_one_result_that_a_mistake_only_nearly_gives_is_not_told_by_it():
         ),
         (lambda x, d: (x.sum() + (len(x) == 5), np.max(d) ** 3), "off", "The mean is"),
         # The mistake is about both results, and one is right.
-        (lambda x, d: (x.sum(), np.mean(d**2)), "off", "The square is right."),
+        (lambda x, d: (x.sum(), np.mean(d**2)), "off", "The square is correct."),
     ],
 )
 def test_a_mistake_in_one_result_says_what_is_with_the_other(function, slug, says):

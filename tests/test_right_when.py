@@ -42,14 +42,14 @@ NAMES = ["M", "acc", "e", "ed", "kp", "kd"]
 def test_a_term_outside_a_bracket_is_found_by_its_neutral_arguments():
     outside = lambda M, acc, e, ed, kp, kd: M @ (acc + kp * e) + kd * ed  # noqa: E731
     says = told(outside, computed_torque, states(), NAMES)
-    assert says == "The result is right whenever ed is 0, and whenever kd is 0."
+    assert says == "The result is correct whenever `ed` is 0, and whenever `kd` is 0."
 
 
 def test_one_number_for_all_is_right_where_all_are_equal():
     one = lambda M, acc, e, ed, kp, kd: M @ (acc + kp[0] * e + kd * ed)  # noqa: E731
     says = told(one, computed_torque, states(), NAMES)
-    assert "whenever all entries of kp are equal" in says
-    assert "e is 0" in says
+    assert "whenever all entries of `kp` are equal" in says
+    assert "`e` is 0" in says
 
 
 def test_a_right_answer_of_zeros_says_nothing():
@@ -74,7 +74,7 @@ def test_a_question_without_an_answer_says_nothing():
     calls = [(A, b) for A, b, *_ in states()]
     right = lambda A, b: np.linalg.solve(A, b)  # noqa: E731
     says = told(lambda A, b: A @ b, right, calls, ["A", "b"])
-    assert says == "The result is right whenever A is the identity matrix."
+    assert says == "The result is correct whenever `A` is the identity matrix."
 
 
 def test_a_pose_is_neutral_in_two_ways():
@@ -96,14 +96,15 @@ def test_a_square_too_many_shows_when_the_argument_is_doubled():
         lambda m, a: m * m * a, lambda m, a: m * a, PUSHES, ["m", "a"]
     )
     assert says == (
-        "If m is doubled, your result becomes 4 times as large, but it should become 2 "
-        "times as large."
+        "If `m` is doubled, your result becomes 4 times as large, but it should become "
+        "2 times as large."
     )
 
 
 def test_an_argument_that_is_not_used_is_named():
     says = told_of_doubling(lambda m, a: m, lambda m, a: m + a**2, PUSHES, ["m", "a"])
-    assert says == "If a is doubled, your result stays the same, but it should change."
+    same = "your result stays the same, but it should change."
+    assert says == f"If `a` is doubled, {same}"
 
 
 @pytest.mark.parametrize(("of_a", "says"), [(1.0, True), (5.0, False)])
@@ -122,7 +123,7 @@ def test_how_an_answer_grows_is_also_tried_at_fresh_calls(of_a, says, factor):
     fresh = [(m, of_a) for m, _ in PUSHES]
     both = of(mine), of(right)
     tried = Experiments(PUSHES, ["m", "a"], *both, 1e-5, drawn=lambda: fresh)
-    assert ("If m is doubled" in tried.doubled()) == says
+    assert ("If `m` is doubled" in tried.doubled()) == says
 
 
 def test_an_answer_that_grows_as_the_right_one_says_nothing():
@@ -136,7 +137,8 @@ def test_a_rotation_is_not_doubled():
     calls = [(se3.Rz(x), np.ones(3)) for x in (0.3, 0.7, 1.1)]
     ones, right = lambda R, v: np.ones(3), lambda R, v: R @ v
     says = told_of_doubling(ones, right, calls, ["R", "v"])
-    assert says == "If v is doubled, your result stays the same, but it should change."
+    same = "your result stays the same, but it should change."
+    assert says == f"If `v` is doubled, {same}"
 
 
 def test_answers_of_unlike_length_are_no_reason_to_stop():
@@ -181,5 +183,5 @@ def test_a_range_is_not_said_where_another_argument_ends_it():
 def test_a_row_s_condition_is_said_where_it_holds_alone():
     small = ("x <= 1", lambda x, y, z: x <= 1)
     alone = ("x <= 1 and y <= 12 z", lambda x, y, z: x <= 1 and y <= 12 * z)
-    assert ranged([alone]).startswith(f"The result is right whenever {alone[0]}")
+    assert ranged([alone]).startswith(f"The result is correct whenever {alone[0]}")
     assert "x <= 1" not in ranged([small])

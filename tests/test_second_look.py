@@ -24,7 +24,7 @@ from robo47 import screws
 pytestmark = pytest.mark.kit
 
 DAY = find_day(1)
-AS_SOON = "This task will be right as soon as task 1.4 is right."
+AS_SOON = "This task will be correct as soon as task 1.4 is correct."
 REFERENCE = DAY.source.read_text("utf-8")
 XYZW = REFERENCE.replace("w, x, y, z = quat", "x, y, z, w = quat", 1)
 LINK = (
@@ -69,7 +69,7 @@ def test_a_task_that_waits_says_so_also_when_it_is_asked_alone(check):
     verdict = check(REFERENCE.replace(start, gap + start, 1), task="1.6")["1.6"]
     assert (verdict.status, verdict.message) == (
         "todo",
-        "This task will be right as soon as task 1.4 is right.",
+        "This task will be correct as soon as task 1.4 is correct.",
     )
 
 
@@ -83,8 +83,8 @@ def test_a_wrong_term_is_told_by_when_it_is_right(check):
     )
     assert outside != text
     verdict = check(outside, day, "5.6")["5.6"]
-    assert "The result is right whenever " in verdict.message
-    assert "ed is 0" in verdict.message or "kd is 0" in verdict.message
+    assert "The result is correct whenever " in verdict.message
+    assert "`ed` is 0" in verdict.message or "`kd` is 0" in verdict.message
 
 
 def test_an_error_on_some_inputs_hides_no_wrong_answer(check):

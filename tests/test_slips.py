@@ -17,7 +17,7 @@ from labkit.judge.ask import asked_of
 from labkit.judge.judge import judge
 from labkit.judge.mutant import Body
 from labkit.judge.row import row_of
-from labkit.judge.sentence import has_its_kind, what
+from labkit.judge.sentence import has_its_kind, of_a_step, what
 from labkit.judge.sentence import told as says_of
 from labkit.lesson.day import find_day
 
@@ -195,7 +195,7 @@ def test_lapack_is_not_asked_of_what_is_not_finite():
         one.compiled()(np.full((2, 2), np.inf), np.ones(2))
 
 
-def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
+def test_a_slip_is_told_by_its_kind_and_its_step():
     move, skew = right(2, "exp_screw"), right(2, "skew")
 
     def exp_screw(S, theta):
@@ -205,10 +205,8 @@ def test_a_slip_is_told_by_its_kind_and_by_how_it_reads():
         return T
 
     says = told(2, "2.4", exp_screw=exp_screw)
-    assert (
-        "One sign is reversed, which gives the wrong expression "
-        "`(theta + s) * K @ K` or `"
-    ) in says
+    assert says.startswith("Your code for the integrated rotation reverses one sign.")
+    assert "`" not in says  # `(theta + s) * K @ K` is not in the file
     assert "gives the same output" in says
 
 
@@ -220,7 +218,8 @@ def test_an_answer_that_is_infinite_is_not_told_how_far_it_is_off():
 
     says = told(12, "12.8", path_accel_bounds=path_accel_bounds)
     assert (
-        "`a` were replaced by its absolute value. The reference solution with" in says
+        "replaces every entry of `a` with its absolute value. The reference solution"
+        in says
     )
 
 
@@ -235,8 +234,9 @@ def test_one_slip_that_explains_all_is_told_before_two():
         return np.append(a[:3], 2 * at_0 - a[3:])
 
     says = told(6, "6.2", bias_acceleration=bias_acceleration)
-    assert says.startswith("One sign is reversed")
-    assert "`linear = A[3:] - turning`" in says
+    assert says.startswith(
+        "Your code for the acceleration of the site reverses one sign."
+    )
 
 
 def test_a_slip_that_the_fresh_questions_do_not_show_is_not_told():
@@ -288,14 +288,21 @@ def test_a_condition_is_wrong_only_in_a_function_that_compares_something(line, m
 
 def judged(number, task, function):
     """Return the verdict on a file that has this function alone, as it stands here."""
-    asked = asked_of(
-        task, name := function.__name__, row_of(find_day(number), name).ask, 47
-    )
+    text = textwrap.dedent(inspect.getsource(function))
+    return judged_text(number, task, text, function)
+
+
+def judged_text(number, task, text, function=None):
+    """Return the same of a text; the function is what it defines, if None."""
+    if function is None:
+        exec(text, space := {"np": np})
+        function = space[ast.parse(text).body[0].name]
+    name = function.__name__
+    asked = asked_of(task, name, row_of(find_day(number), name).ask, 47)
     for one in asked.exchanges:
         value = function(*one.question.args)
         one.reply = Reply(value=value, again=value)
-    names = tuple(inspect.signature(function).parameters)
-    return judge(asked, textwrap.dedent(inspect.getsource(function)), names)
+    return judge(asked, text, tuple(inspect.signature(function).parameters))
 
 
 def test_a_gain_of_another_root_formula_is_not_called_a_wrong_condition(monkeypatch):
@@ -326,7 +333,8 @@ def test_a_change_that_no_line_of_the_file_has_is_told_of_the_correct_formula():
 
     says = judged(4, "4.2", link_inertias).message
     assert says.startswith(
-        "Your code gives the result of the correct formula with one change: a bracket "
+        "Your code gives the same result as a solution whose code for the centre of "
+        "mass in the world frame opens or closes a bracket in the wrong place."
     )
 
 
@@ -335,7 +343,8 @@ def test_a_product_in_the_wrong_order_may_lack_a_transpose():
     (one,) = [o for o in body(text).near if o.kind == "order"]
     case = SimpleNamespace(source="def f(A, b):\n    return [0]\n", names=("A", "x"))
     says = says_of(SimpleNamespace(case=case, known={}), one)
-    assert says == "two operands are in the wrong order, or a transpose is missing"
+    does = "puts two operands in the wrong order, or omits a transpose"
+    assert says == f"your code {does}"
 
 
 @pytest.mark.parametrize(("new", "size"), [("2.0 * x", "twice"), ("0.5 * x", "half")])
@@ -345,4 +354,56 @@ def test_a_factor_of_two_says_which_way_it_goes(new, size):
         kind="factor",
         edits=[(SimpleNamespace(node=node), ast.parse(new, mode="eval").body)],
     )
-    assert what(mutant) == f"one value is {size} as large as it should be"
+    assert what(mutant) == f"makes one value {size} as large as it should be"
+
+
+POLICY_COST = """
+def policy_cost(K, std, A, B, Q, R, S, T):
+    M = A - B @ K
+    X, J = S, 0.0
+    for _ in range(T):
+        J += np.trace((Q + K.T @ R @ K) @ X) + std**2 * np.trace(R)
+        X = M @ X @ M.T + std**2 * B @ B.T
+    return J + np.trace(Q @ X)
+"""
+
+
+def test_an_expression_of_another_right_solution_is_not_quoted(monkeypatch):
+    row = row_of(find_day(20), "policy_cost")
+    named = [one for one in row.ask.named if one.slug != "last-state-added"]
+    monkeypatch.setitem(vars(row), "ask", replace(row.ask, mistakes=named))
+    assert "`" not in judged_text(20, "20.7", POLICY_COST).message
+
+
+def test_the_students_expression_is_quoted_as_it_reads_in_the_file():
+    own = """
+def f(first, second):
+    if first > 0: return second
+    return max(3, np.sin(second * 2 - first) * second)
+"""
+    m = SimpleNamespace(case=SimpleNamespace(source=own, names=()), known={})
+    text = "def f(x, y):\n    w = np.sin(2.0 * y + x)\n    return w * y\n"
+    right = Body(ast.parse(text).body[0], {"np": np}, name="f")
+    says = {one: says_of(m, one) for one in right.near if one.kind != "left-out"}
+    quoted = {text for text in says.values() if "`" in text}
+    assert quoted == {"in `np.sin(second * 2 - first)`, your code reverses one sign"}
+
+
+@pytest.mark.parametrize(
+    ("gloss", "step"),
+    [
+        ("overdamped response", "the overdamped response"),
+        ("the two gains", "the two gains"),
+        ("omega, and -omega x point", "omega, and -omega x point"),
+        ("Jacobian of link i", "the Jacobian of link i"),
+        ("x of the hand", "x of the hand"),
+        ("lower triangle: the joints distal to j", "the lower triangle"),
+        ("without qdd", 'the step "without qdd"'),
+        (
+            "0 where another episode follows",
+            'the step "0 where another episode follows"',
+        ),
+    ],
+)
+def test_a_comment_of_the_solution_reads_as_a_noun(gloss, step):
+    assert of_a_step(gloss) == step

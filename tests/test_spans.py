@@ -42,7 +42,7 @@ def right(x):
         ),
         (
             lambda x: min(right(x), 1e6),
-            "f(10000000.0) returned 1e+06; expected 1e+07.",
+            "f(1e7) returned 1e+06; expected 1e+07.",
             "very large values of `x`. The lab or a later task uses such values.",
         ),
         (

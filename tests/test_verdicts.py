@@ -28,7 +28,7 @@ def test_a_task_that_calls_an_unwritten_one_waits_for_it(check):
     code = REFERENCE.replace(start, f"    {gap}\n{start}", 1)
     verdicts = check(code)
     assert verdicts["1.4"].status == verdicts["1.6"].status == "todo"
-    assert verdicts["1.6"].message.endswith("as soon as task 1.4 is right.")
+    assert verdicts["1.6"].message.endswith("as soon as task 1.4 is correct.")
 
 
 def test_a_missing_function_is_told_with_the_way_to_get_it_back(check):

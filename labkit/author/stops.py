@@ -6,14 +6,14 @@ mistakes, so that none of them is recognised; and a name that does not exist is 
 of the author's.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set
 from typing import Any
 
 from labkit.base.text import count
 from labkit.judge.answers import own
 from labkit.judge.ask import as_plain
 from labkit.judge.guard import quiet
-from labkit.judge.row import Row, Way
+from labkit.judge.row import Row, Table, Way
 from labkit.judge.written import stop
 
 # What no student's mistake is made for.
@@ -22,18 +22,12 @@ SLIPS = (AttributeError, ImportError, KeyError, NameError, NotImplementedError)
 
 def faults_of(row: Row) -> Iterator[str]:
     """Yield the mistakes of a row that stop at a question, and what to do."""
-    calls = [*row.ask.main, *row.ask.edges]
     stopped = set[str]()
     with quiet():
         for table in row.tables:
-            if found := next(_errors(table.code, calls), None):
-                stopped |= table.slugs
-                yield (
-                    f"its @row.wrongs {stop(found)}, so none of its "
-                    f"{count(len(table.slugs), 'mistake')} has an answer to that "
-                    "question. Write a mistake that may stop as a function without "
-                    "arguments, lambda: ..."
-                )
+            for fault, slugs in of_table(table, [*row.ask.main, *row.ask.edges]):
+                stopped |= slugs
+                yield fault
         told = set[str]()
         for way in row.named:
             if way.slug in stopped or way.reached:
@@ -41,6 +35,26 @@ def faults_of(row: Row) -> Iterator[str]:
             if (says := _of_one(way, row.ask.main)) and says not in told:
                 told.add(says)  # a name that its table lacks stops all others, too
                 yield f"its mistake {way.slug} {says}"
+
+
+def of_table(
+    table: Table, calls: Sequence[tuple[Any, ...]]
+) -> Iterator[tuple[str, Set[str]]]:
+    """Yield why mistakes of a `@row.wrongs` are never recognised, and which."""
+    for slug in table.silent:
+        yield (
+            f"its @row.wrongs has no sentence for {slug}, so the checker does not "
+            f'recognise it. Write "{slug}: your code ..."',
+            {slug.partition(" ")[0]},
+        )
+    if found := next(_errors(table.code, calls), None):
+        yield (
+            f"its @row.wrongs {stop(found)}, so none of its "
+            f"{count(len(table.slugs), 'mistake')} has an answer to that question. "
+            "Write a mistake that may stop as a function without arguments, lambda: "
+            "...",
+            table.slugs,
+        )
 
 
 def _of_one(way: Way, calls: Sequence[tuple[Any, ...]]) -> str:

@@ -219,7 +219,7 @@ def _inherited(broken: Sequence[Task]) -> Verdict:
     """Return the verdict on a task that only lacks those that it builds on."""
     *before, last = [task.id for task in broken]
     ids = f"tasks {', '.join(before)} and {last} are" if before else f"task {last} is"
-    says = f"This task will be right as soon as {ids} right."
+    says = f"This task will be correct as soon as {ids} correct."
     return Verdict("todo", "inherited", says, follows=broken[0].id)
 
 
@@ -366,5 +366,5 @@ def _changed_arguments(
     says += f"; work on a copy: {copied}" if name.isidentifier() else ""
     if verdict.status != "passed":
         return replace(verdict, message=f"{verdict.message} Besides, {says}.")
-    says = f"The numbers are right, but {says}."
+    says = f"The numbers are correct, but {says}."
     return Verdict("wrong", "argument-changed", says, verdict.measured)

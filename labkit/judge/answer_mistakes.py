@@ -60,8 +60,8 @@ GENERAL = _mistakes(
       covariance. Return the entries themselves, which are variances and covariances
     halves-swapped: the two halves of your result are swapped. The first half should be
       {halves[0]}, and the second half should be {halves[1]}
-    blocks-swapped: your blocks are in the order (v; omega). The block of omega should
-      come first
+    blocks-swapped: your blocks are in the order (v; omega). The angular block
+      should come first
     counted-from-one: your index is counted from 1 instead of 0
     one-too-small: your index is too small by 1
     inverted: your code swaps True and False

@@ -4,6 +4,7 @@ Sets of answers are stacked, (n, ...); a function that returns several has its p
 """
 
 import contextlib
+import re
 from collections.abc import Callable, Iterable, Sequence, Set
 from dataclasses import dataclass
 from itertools import starmap
@@ -335,7 +336,7 @@ def of_result(says: str, called: str) -> str:
         return says
     name = capitalised(called)
     if says.startswith("The result is "):
-        return name + says.removeprefix("The result")
+        return f"{name} {is_or_are([called])} {says.removeprefix('The result is ')}"
     return f"{name}: {as_clause(says).replace('of the result', f'of {called}', 1)}"
 
 
@@ -359,6 +360,14 @@ def listed(words: Sequence[str]) -> str:
     """Return words as a list: "m, m cx and m cy"."""
     *before, last = words
     return f"{', '.join(before)} and {last}" if before else last
+
+
+def is_or_are(names: Sequence[str]) -> str:
+    """Return the verb of what results are called: "the levels are"."""
+    head = re.split(r" (?:of|with|in|from|at) ", names[0])[0].split()[-1]
+    one = len(names) == 1
+    plural = head.islower() and re.search(r"[^aius]s$", head)
+    return "is" if one and not plural else "are"
 
 
 def in_calls(n: int, of: int) -> str:

@@ -1,4 +1,4 @@
-"""In which cases a wrong function is right: "It is right for parallel segments ...".
+"""In which cases a wrong function is right: "It is correct for parallel segments".
 
 The author of a row names cases of its calls. They are counted among the calls that were
 asked, and each is tried at fresh inputs: at fifty that are of the case, and at fifty
@@ -16,7 +16,7 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Question, Reply
 from labkit.judge import valid
-from labkit.judge.answers import listed
+from labkit.judge.answers import capitalised, listed
 from labkit.judge.ask import Ask, Asked, as_plain, right_answers
 from labkit.judge.crossed import crossed
 from labkit.judge.draw import Draw
@@ -190,12 +190,20 @@ def sentence(cases: Cases, old: Answered, new: Answered) -> tuple[int, str] | No
             how = "in some calls, all of them with" if mixed else "only for"
             return left, f"The result is wrong {how} {one}."
     lists = (
-        ("The result is right for", right),
+        ("The result is correct for", right),
         ("It is wrong for", wrong),
-        ("It is wrong in some calls with", mixed),
     )
     parts = [f"{how} {_listed(merged(some)[:LISTED])}." for how, some in lists if some]
-    return left, " ".join(parts)
+    return left, " ".join([*parts, *_wrong_in_some(merged(mixed)[:LISTED])])
+
+
+def _wrong_in_some(phrases: Sequence[str]) -> Iterator[str]:
+    """Yield a sentence on cases of which some calls are wrong."""
+    if phrases:
+        first, *others = phrases
+        some = [f"some of the calls with {first}"]
+        some += [f"some of those with {one}" for one in others]
+        yield f"{capitalised(_listed(some))} are wrong."
 
 
 def _listed(phrases: Sequence[str]) -> str:

@@ -32,7 +32,7 @@ class Change(NamedTuple):
     """A change of a call's arguments."""
 
     slug: str  # "exchanged"
-    # A clause that follows "Your code acts as if ": "`qd` and `qdd` were swapped".
+    # What follows "Your code ": "acts as if `qd` and `qdd` were swapped".
     says: str
     change: Callable[..., Call]  # a function of all of them
 
@@ -49,7 +49,7 @@ def likely(call: Call, names: Sequence[str]) -> Iterator[Change]:
         yield from _made(k, names[k], _near(x))
     for k, m in combinations(range(len(call)), 2):
         if _number(call[k]) and _number(call[m]) and _shape(call[k]) == _shape(call[m]):
-            says = f"`{names[k]}` and `{names[m]}` were swapped"
+            says = f"acts as if `{names[k]}` and `{names[m]}` were swapped"
             yield Change("exchanged", says, partial(_exchanged, k, m))
     if sum(map(np.size, call)) <= FEW:
         for k, x in enumerate(call):
@@ -59,7 +59,9 @@ def likely(call: Call, names: Sequence[str]) -> Iterator[Change]:
         alike = [
             f"`{name}`" for name, x in zip(names, call, strict=True) if _long(x, n)
         ]
-        says = f"{listed(alike)} were each in reverse order"
+        says = f"acts as if {listed(alike)} were each in reverse order"
+        if any(np.ndim(x) > 1 and _long(x, n) for x in call):
+            says += " along the first axis"
         yield Change("backwards", says, partial(_backwards, n))
 
 
@@ -129,7 +131,8 @@ Made = Iterator[tuple[str, str, Callable[[Any], Any]]]
 
 def _made(k: int, name: str, some: Made) -> Iterator[Change]:
     for slug, says, change in some:
-        yield Change(slug, says.format(name), partial(_at, k, change))
+        does = says if says.startswith("replaces ") else f"acts as if {says}"
+        yield Change(slug, does.format(name), partial(_at, k, change))
 
 
 def _near(x: Any) -> Made:
@@ -143,11 +146,11 @@ def _near(x: Any) -> Made:
     if len(shape) > 1 and shape[-1] == shape[-2]:
         yield "transposed", "`{0}` were transposed", np.matrix_transpose
         if shape[-1] == 4 and rigid(x.reshape(-1, 4, 4)):
-            yield "inverted", "`{0}` were replaced by its inverse", rigid_inverse
+            yield "inverted", "replaces `{0}` with its inverse", rigid_inverse
     if shape == (6,):
         yield "halves-exchanged", "the halves of `{0}` were swapped", _rolled
     if shape and shape[0] >= SHARED:
-        yield "backwards", "`{0}` were in reverse order", partial(np.flip, axis=0)
+        yield "backwards", _reversed(shape, "rows", "first"), partial(np.flip, axis=0)
 
 
 def _entries_exchanged(x: Any) -> Made:
@@ -167,12 +170,12 @@ def _far(x: Any) -> Made:
         return
     each = "every entry of `{0}`" if _shape(x) else "`{0}`"
     yield "ones", f"{each} were 1", np.ones_like
-    yield "sign-lost", f"{each} were replaced by its absolute value", np.abs
+    yield "sign-lost", f"replaces {each} with its absolute value", np.abs
     yield "degrees", "`{0}` had been converted to degrees", np.rad2deg
     yield "radians", "`{0}` had been converted from degrees to radians", np.deg2rad
-    yield "squared", f"{each} were replaced by its square", np.square
-    yield "root", f"{each} were replaced by its square root", np.sqrt
-    yield "reciprocal", f"{each} were replaced by its reciprocal", lambda x: 1.0 / x
+    yield "squared", f"replaces {each} with its square", np.square
+    yield "root", f"replaces {each} with its square root", np.sqrt
+    yield "reciprocal", f"replaces {each} with its reciprocal", lambda x: 1.0 / x
     yield "thousandths", "`{0}` were 1000 times as large", partial(np.multiply, 1000.0)
     yield "thousands", "`{0}` were divided by 1000", partial(np.multiply, 1e-3)
     yield (
@@ -205,19 +208,30 @@ def _far(x: Any) -> Made:
         yield from _far_of_array(x)
 
 
+_ENTRIES = {1: ("entry", "entries"), 2: ("row", "rows")}  # by the number of axes
+
+
+def _reversed(shape: tuple[int, ...], lines: str, axis: str) -> str:
+    """Return that an array is in reverse order, and along which axis."""
+    if len(shape) == 1:
+        return "`{0}` were in reverse order"
+    if len(shape) == 2:
+        return f"the {lines} of `{{0}}` were in reverse order"
+    return f"`{{0}}` were in reverse order along its {axis} axis"
+
+
 def _far_of_array(x: Array) -> Made:
     shape = _shape(x)
     yield "normalised", "`{0}` were divided by its norm", _unit
-    entry, entries = ("row", "rows") if len(shape) == 2 else ("entry", "entries")
-    whole = "all rows" if len(shape) == 2 else "`{0}`"
-    every = f"every {entry} of `{{0}}` were the"
-    yield "first-for-all", f"{every} first {entry}", _first
-    yield "last-for-all", f"{every} last {entry}", _last
-    yield "mean", f"{every} mean of {whole}", _mean
+    entry, entries = _ENTRIES.get(len(shape), ("element", "elements"))
+    every = f"replaces every {entry} of `{{0}}` with"
+    yield "first-for-all", f"{every} the first {entry}", _first
+    yield "last-for-all", f"{every} the last {entry}", _last
+    yield "mean", f"{every} their mean", _mean
     yield "sorted", "`{0}` were sorted", partial(np.sort, axis=0)
     yield (
         "summed-up",
-        "`{0}` were replaced by its cumulative sum",
+        "replaces `{0}` with its cumulative sum",
         partial(np.cumsum, axis=0),
     )
     if shape[0] > 1:
@@ -251,13 +265,13 @@ def _far_of_array(x: Array) -> Made:
             lambda x: x * np.eye(len(x)),
         )
         yield "identity", "`{0}` were the identity matrix", lambda x: np.eye(len(x))
-        yield "inverted", "`{0}` were replaced by its inverse", np.linalg.inv
+        yield "inverted", "replaces `{0}` with its inverse", np.linalg.inv
         yield "upper", "every entry of `{0}` below the diagonal were 0", np.triu
         yield "lower", "every entry of `{0}` above the diagonal were 0", np.tril
     if len(shape) > 1:
         yield (
             "columns",
-            "the columns of `{0}` were in reverse order",
+            _reversed(shape, "columns", "second"),
             partial(np.flip, axis=1),
         )
 

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from labkit.base.exchange import Exchange, Question
+from labkit.judge import replies_read
 from labkit.judge.answers import (
     Parts,
     Several,
@@ -81,13 +82,29 @@ def _misfit(
     for one in exchanges:
         found = read([one], asked.ask)
         if isinstance(found, Finding) and found.slug == "shape" and one.reply:
-            if not isinstance(one.reply.value, np.ndarray):
-                return None
-            shape = one.reply.value.shape
-            says = f"{typed(one.question, names, LONG)} returned shape {shape}."
+            place, shape = _misfitting(asked.ask, one.reply.value)
+            call = typed(one.question, names, LONG)
+            says = f"{call}{place} returned shape {shape}."
             whole = _given(one.question, names)
             return Failing(says, whole, None, Example(one.question))
     return None
+
+
+def _misfitting(ask: Ask, value: Any) -> tuple[str, str]:
+    """Return the place and the shape of the first result of a wrong shape."""
+    parts = split(ask.kind, value)
+    assert not isinstance(parts, Finding)  # it was read before
+    for place, kind, part in zip(places(ask.kind), ask.kinds, parts, strict=True):
+        if isinstance(kind.read([part]), Finding):
+            return place, _shape(part)
+    return "", _shape(value)
+
+
+def _shape(value: Any) -> str:
+    try:
+        return str(np.shape(value))
+    except ValueError:  # parts of different shapes
+        return "that is no array"
 
 
 def _wrong(
@@ -107,19 +124,21 @@ def _wrong(
     relative = held is not None and held.relative
     gap = ask.shares(S, T) if relative else ask.gaps(S, T)
     limit = 1.0 if relative else ask.tolerance
+    off = {i for i, _, got, its in replies_read.sizes(ask, exchanges) if got != its}
+    gap[list(off)] = np.inf  # zeros that fill an answer up may be right
     if not (gap > limit).any():
         return None
     # What is said is of the first result that is wrong in some call: one of these.
     first = worst_part(ask.kinds, S, T, ask.tolerance)
     of_it = ask.gaps_of(first, S[first], T[first])
-    if of_it.max() > ask.tolerance and not relative:
+    if of_it.max() > ask.tolerance and not relative and not off:
         gap = of_it
     one = _easiest(exchanges, gap, limit)
     given = read([one], ask)  # alone, in their own shapes
     assert one.reply
     assert not isinstance(given, Finding)
     right = right_answers(ask, [one], held)
-    part = worst_part(ask.kinds, given, right, ask.tolerance)
+    part = _wrong_part(ask, given, right)
     place, entries = _entry(ask.kinds[part], given[part][0], right[part][0])
     says = f"{typed(one.question, names, LONG)}{places(ask.kind)[part]}{place}"
     whole = [*_given(one.question, names)]
@@ -131,6 +150,14 @@ def _wrong(
     compared = _compared(ask, part, given[part][0], right[part][0])
     example = Example(one.question, one.reply.value, tuple(x[0] for x in right))
     return Failing(f"{says} {entries}.", tuple(whole), compared, example)
+
+
+def _wrong_part(ask: Ask, given: Parts, right: Parts) -> int:
+    """Return the first result of a wrong shape, else the one that is wrong."""
+    for k, (mine, its) in enumerate(zip(given, right, strict=True)):
+        if mine.shape != its.shape:
+            return k
+    return worst_part(ask.kinds, given, right, ask.tolerance)
 
 
 def _compared(ask: Ask, part: int, mine: Array, its: Array) -> Compared | None:
@@ -205,7 +232,7 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     That answers were looked up is said only where all are wrong, and each is one that
     another input has got.
     """
-    right = "The result is right for the inputs that every check uses, but not for"
+    right = "The result is correct for the inputs that every check uses, but not for"
     if isinstance(S, Finding):
         return Finding("some-inputs", f"{right} new random inputs. {S.message}")
     S = taken(asked.ask, asked.fresh, S)

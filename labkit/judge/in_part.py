@@ -9,10 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from labkit.judge.answers import Parts, capitalised, gaps, in_calls, listed
+from labkit.judge.answers import (
+    Parts,
+    capitalised,
+    gaps,
+    in_calls,
+    is_or_are,
+    listed,
+)
 from labkit.judge.hypothesis import equals
 from labkit.judge.matcher import Calls, Matcher
-from labkit.judge.mistake import Finding, Mistake
+from labkit.judge.mistake import Finding, Mistake, as_sentence
 from labkit.judge.pairs import of_its_own_first
 
 FEW = 6  # wrong calls at which one mistake is tried, before all of them
@@ -98,12 +105,13 @@ def _of_the_others(m: Matcher, told: Mapping[int, Mistake]) -> str:
     right = [_name(m, j) for j in off if not np.any(np.concatenate(off[j]))]
     says = []
     if right:
-        verb = "is" if len(right) == 1 else "are"
-        says.append(f"{capitalised(listed(right))} {verb} right.")
+        verb = is_or_are(right)
+        says.append(f"{capitalised(listed(right))} {verb} correct.")
     for j in off:
         if n := int(np.sum(off[j][0])):
             often = in_calls(n, len(off[j][0]))
-            says.append(f"{capitalised(_name(m, j))} is wrong {often}, too.")
+            name = _name(m, j)
+            says.append(f"{capitalised(name)} {is_or_are([name])} wrong {often}, too.")
     return " ".join(says)
 
 
@@ -153,11 +161,6 @@ def in_some_calls(m: Matcher) -> Finding | None:
         f"{as_sentence(one.says)} {rest}."
     )
     return Finding(f"{one.slug}+other", says)
-
-
-def as_sentence(says: str) -> str:
-    """Return a clause with its full stop; a question keeps its mark."""
-    return says if says.endswith("?") else f"{says}."
 
 
 def _differ(S: Parts, which: Any) -> bool:

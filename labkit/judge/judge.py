@@ -26,6 +26,7 @@ from labkit.judge.answers import (
     capitalised,
     difference,
     in_calls,
+    is_or_are,
     listed,
     of_result,
     plain,
@@ -381,7 +382,7 @@ def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
     return (
         f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
         f"of {len(gap)}; passes up to {ask.tolerance:.0e}{beyond})",
-        f"calls that are right: {np.sum(gap <= ask.tolerance)} of {len(gap)} {which}",
+        f"calls that are correct: {np.sum(gap <= ask.tolerance)} of {len(gap)} {which}",
     )
 
 
@@ -519,6 +520,8 @@ def what_is_wrong(case: Case, S: Parts, T: Parts, counted: bool = True) -> Findi
     i = worst_part(case.ask.kinds, S, T, case.ask.near)
     kind = ask.kinds[i]
     found = tried.what_is_wrong(case, S, T, i)
+    if (says := kind.diverges(S[i], T[i])) and not kind.whole:
+        found = Finding(found.slug, says)
     where = ""
     if found.slug != "one-factor-off":  # every entry, so where does not matter
         where = tried.in_common(case, S, T, i)
@@ -547,7 +550,8 @@ def _wrong_too(case: Case, S: Parts, T: Parts, i: int) -> str:
         n = int(np.sum(case.ask.gaps_of(j, S[j], T[j]) > case.ask.near))
         if j != i and n and kind.called:
             many = in_calls(n, len(S[j]))
-            says += f" {capitalised(kind.called)} is wrong {many}, too."
+            verb = is_or_are([kind.called])
+            says += f" {capitalised(kind.called)} {verb} wrong {many}, too."
     return says
 
 
@@ -564,8 +568,7 @@ def _right_results(case: Case, S: Parts, T: Parts) -> str:
     ]
     if len(S) < 2 or not names:
         return ""
-    verb = "is" if len(names) == 1 else "are"
-    return f"{capitalised(listed(names))} {verb} right. "
+    return f"{capitalised(listed(names))} {is_or_are(names)} correct. "
 
 
 def _nothing_there(m: Matcher) -> Finding | None:

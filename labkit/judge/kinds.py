@@ -19,6 +19,7 @@ from labkit.judge.answers import (
     capitalised,
     gap,
     in_calls,
+    largest,
     listed,
     matches,
     say_factor,
@@ -31,6 +32,7 @@ from robo47.errors import Robo47Error
 NEAR = 1e-4  # entries that differ by less are not called wrong
 ROUNDED_AWAY = 1e12  # rounding divided by nothing: its digits are the processor's
 DUST = 1e-9  # in units of the scale: what rounding leaves of a right answer
+DIVERGES = 1e9  # times the right answer: how far off it is says nothing
 RIGHT = 1e-6  # and those that differ by less are called right
 OF_UNITS = (1e3, 1e-3)  # factors that a unit with another prefix has
 
@@ -118,14 +120,14 @@ class Kind:
         told = str(self.shape), "x".join(map(str, self.shape))
         if None not in self.shape and not any(one in expected for one in told):
             expected += f", shape {self.shape}"
-        if reason := self.why_shape(got):
-            expected += f": {reason}"
+        why = self.why_shape(got)
+        why = f" {capitalised(why)}." if why else ""
         often = ""
         with contextlib.suppress(ValueError):  # one has parts of different shapes
             fit = sum(self.fits(np.asarray(value).shape) for value in values)
             often = f" in {len(values) - fit} of {len(values)} calls" if fit else ""
         what = f"an array of shape {got}" if got else "a single number"
-        says = f"Your function returns {what}{often}; expected {expected}."
+        says = f"Your function returns {what}{often}; expected {expected}.{why}"
         return Finding("shape", says)
 
     def numbers(self, value: Any) -> Array:
@@ -187,6 +189,14 @@ class Kind:
             digits = f"{off[at]:.0e}"
         return f"{digits}{unit}"
 
+    def diverges(self, S: Array, T: Array) -> str:
+        """Return that S is larger than T by orders of magnitude, or ""."""
+        size = largest(S, self.scale) / max(1.0, largest(T, self.scale))
+        if size < DIVERGES:
+            return ""
+        times = f"1e{np.floor(np.log10(size)):.0f}"
+        return f"The result diverges: it is over {times} times as large as expected."
+
     def largest_error(self, S: Array, T: Array) -> str:
         """Return how far S is from T at worst as a sentence: "Largest error: 2 m.".
 
@@ -198,6 +208,8 @@ class Kind:
         apart = self.apart(S, T)
         if self.gap != Kind.gap:
             return f"The result is {self.gap} {apart}."
+        if says := self.diverges(S, T):
+            return says
         return f"Largest error{'s' * (' and ' in apart)}: {apart}."
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
@@ -254,12 +266,12 @@ class Vector(Kind):
             off_by = f"The largest error is {self.apart(S, T)}."
             return Finding("entries-empty", f"{says} call. {off_by}")
         if not same and _only_the_last(gap(S, T) > RIGHT * self.scale, S, T):
-            says = "All entries are right except the last one, which is off by up to "
+            says = "All entries are correct except the last one, which is off by up to "
             return Finding("few-entries-off", f"{says}{self.apart(S, T)}.")
         if not 0 < off.sum() <= (max(1, len(off) // 3) if same else 1):
             return Finding("off", f"The result is off by up to {self.apart(S, T)}.")
         where = _entries(self.names, counted, np.flatnonzero(off))
-        says = f"All entries are right except {where}. The largest error is "
+        says = f"All entries are correct except {where}. The largest error is "
         says += f"{self.apart(S, T)}."
         return Finding("few-entries-off", says)
 
@@ -353,9 +365,10 @@ def few_told(where: str, wrong: Array, off: str) -> Finding:
     """
     if 2 * wrong.any(axis=1).sum() < len(wrong):
         says = (
-            "The result is right in some calls. In the others, all entries are right "
-            f"except {where}."
+            "The result is correct in some calls. In the others, all entries are "
+            f"correct except {where}."
         )
         return Finding("few-entries-off", f"{says} The largest error is {off}.")
-    says = f"All entries are right except {where}. The largest error is {off}. Look for"
-    return Finding("few-entries-off", f"{says} a wrong sign, variable or factor.")
+    says = f"All entries are correct except {where}. The largest error is {off}."
+    look = "Look for a wrong sign, variable or factor."
+    return Finding("few-entries-off", f"{says} {look}")

@@ -15,6 +15,7 @@ from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
 SWAPPED = "rows and columns are swapped"
+COUNTED = ", counted from 0"
 MOST_BLOCKS = 4  # of columns, up to which their other orders are tried
 
 
@@ -82,11 +83,13 @@ def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
     if None in kind.shape:
         return None
     wrong = (gap(S, T) / kind.scale > RIGHT).any(axis=0)
-    parts = [_blocks(kind, wrong), _lines("row", kind.rows, wrong.any(axis=1))]
+    parts = [_lines("row", kind.rows, wrong.any(axis=1)), _blocks(kind, wrong)]
     parts = [one for one in parts if one]
     if not parts:
         return None
-    says = f"All entries are right except those in {' and '.join(parts)}."
+    where = " of ".join(one.removesuffix(COUNTED) for one in parts)
+    counted = COUNTED * any(one.endswith(COUNTED) for one in parts)
+    says = f"All entries are correct except in {where}{counted}."
     off = f"The largest error is {kind.apart(S, T)}."
     alone = np.ndim(kind.scale) == 0
     if alone and (found := one_factor(kind, S[:, wrong], T[:, wrong])):
@@ -102,9 +105,11 @@ def _blocks(kind: Matrix, wrong: Any) -> str:
     each = columns.reshape(len(kind.blocks), -1)
     if 2 * each.any(axis=1).sum() <= len(each):
         names = [kind.blocks[i] for i in np.flatnonzero(each.any(axis=1))]
-        return f"the columns of {listed(names)}"
+        return _of_names("column", names)
     within = _lines("column", kind.columns, each.any(axis=0))
-    return f"{within} of each block" if within and not kind.columns else within
+    if within and not kind.columns:
+        return f"{within.removesuffix(COUNTED)} of each block{COUNTED}"
+    return within
 
 
 def _lines(side: str, names: tuple[str, ...], wrong: Any) -> str:
@@ -115,12 +120,18 @@ def _lines(side: str, names: tuple[str, ...], wrong: Any) -> str:
     first, last = int(at[0]), int(at[-1])
     if names and len(at) <= 4:
         called = [names[i].removeprefix(f"the {side} of ") for i in at]
-        return f"the {side}{'s' * (len(at) > 1)} of {listed(called)}"
+        return _of_names(side, called)
     if len(at) == last - first + 1:
         counted = f"{first} to {last}" if last > first else str(first)
-        return f"{side}{'s' * (last > first)} {counted}, counted from 0"
-    counted = ", ".join(map(str, at))
-    return f"{side}s {counted}, counted from 0" if len(at) <= 4 else ""
+        return f"{side}{'s' * (last > first)} {counted}{COUNTED}"
+    counted = listed(list(map(str, at)))
+    return f"{side}s {counted}{COUNTED}" if len(at) <= 4 else ""
+
+
+def _of_names(side: str, names: Sequence[str]) -> str:
+    """Return rows or columns by their names: "the rows v_x and v_y"."""
+    of = " of" * any(name.startswith("the ") for name in names)
+    return f"the {side}{'s' * (len(names) > 1)}{of} {listed(names)}"
 
 
 @dataclass(frozen=True)
@@ -140,9 +151,11 @@ class Jacobian(Matrix):
         halves = np.flatnonzero(wrong.reshape(2, -1).any(axis=1))
         half = ("omega", "v")[halves[0]] if len(halves) == 1 else ""
         if len(bad) == 1:
-            says = f"Every column is right except the column of joint {bad[0] + 1}."
+            says = f"Every column is correct except the column of joint {bad[0] + 1}."
         elif bad[0] > 0 and len(bad) == self.shape[1] - bad[0]:
-            says = f"The columns are right up to joint {bad[0]}. All later columns are "
+            says = (
+                f"The columns are correct up to joint {bad[0]}. All later columns are "
+            )
             says += "wrong."
         else:
             says = "All columns are wrong." if len(bad) == self.shape[1] else ""
@@ -172,7 +185,7 @@ class Symmetric(Matrix):
         if off[:, ~diagonal].max(initial=0.0) <= RIGHT:
             says = "Only the diagonal is wrong"
         elif off[:, diagonal].max() <= RIGHT:
-            says = "The diagonal is right, but other entries are not"
+            says = "The diagonal is correct, but other entries are not"
         else:
             return super().what_is_wrong(S, T)
         return Finding("part-off", f"{says}: off by up to {self.apart(S, T)}.")

@@ -91,7 +91,13 @@ class Mistake:
 
 def both_told(first: str, second: str) -> str:
     """Return two clauses on two mistakes as sentences."""
-    return f"Your code has two mistakes. First, {first}. Second, {second}."
+    says = as_sentence(f"First, {first}"), as_sentence(f"Second, {second}")
+    return f"Your code has two mistakes. {' '.join(says)}"
+
+
+def as_sentence(says: str) -> str:
+    """Return a clause with its full stop; a question keeps its mark."""
+    return says if says.endswith("?") else f"{says}."
 
 
 def told(text: str) -> Iterator[tuple[str, str, bool]]:

@@ -94,6 +94,15 @@ class Mutant:
                 return node
         return None
 
+    def around(self, k: int = 0) -> list[ast.expr]:
+        """Return the k-th changed expression and those around it, while it is made."""
+        at, new = self.edits[k]
+        found = [new] * isinstance(new, ast.expr)
+        while found and at and isinstance(at.parent, ast.expr):
+            found.append(at.parent)
+            at = self.body.above.get(id(at.parent))
+        return found
+
     @property
     def text(self) -> str:
         """How the first changed place reads, "theta + s"; "" where that is long."""

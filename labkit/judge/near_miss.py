@@ -93,7 +93,7 @@ def in_common(S: Array, T: Array) -> str:
     if not wrong.any():
         return ""
     if (np.abs(np.abs(S) - np.abs(T)) <= tiny).all():
-        return " Every entry has the right absolute value, but some signs are wrong."
+        return " Every entry has the correct absolute value, but some signs are wrong."
     if found := one_rule(S, T, wrong):
         return found
     if about:
@@ -119,14 +119,14 @@ def _in_another_order(S: Array, T: Array, wrong: Array, shape: Sequence[int]) ->
         turned = np.swapaxes(T.reshape(shape), 1, 2).reshape(len(T), -1)
         near = EXACT * np.abs(T).max()
         if np.abs(S - turned)[wrong].max() <= near:
-            return " In every wrong call the result is the transpose of the right one."
+            return " In every wrong call, your result is the correct one, transposed."
     if wrong.all():
-        return " The numbers are right, but their order is wrong."
+        return " The numbers are correct, but their order is wrong."
     # Few numbers, such as those of a matrix of 0 and 1, are the right ones by chance.
     telling = [len(set(t.tolist())) >= DISTINCT for t in T[wrong]]
     if sum(telling) < 2 and len(shape) > 2:
         return ""
-    return " In every wrong call, the numbers are right, but their order is wrong."
+    return " In every wrong call, the numbers are correct, but their order is wrong."
 
 
 def one_rule(S: Array, T: Array, wrong: Array) -> str:
@@ -150,7 +150,7 @@ def one_rule(S: Array, T: Array, wrong: Array) -> str:
     limit = float(np.abs(S).max())
     cut = np.abs(S - np.clip(T, -limit, limit)).max() <= near
     if cut and wrong.any(axis=1).sum() >= 2:
-        return f" Your result equals the right result, clamped at {limit:.4g}."
+        return f" Your result equals the correct result, clamped at {limit:.4g}."
     return _a_factor_each(S, T)
 
 

@@ -19,7 +19,7 @@ _SEVERAL = (1.0, -1.0, 5.0, -0.2, 0.2, -5.0)
 class Neutral:
     """One way for an argument to be neutral."""
 
-    says: str  # "{} is 0"
+    says: str  # "`{}` is 0"
     value: Any  # the argument made so with as little change as that takes
     holds: Callable[[Any], bool]  # whether a value of such an argument is so
     others: tuple[Any, ...] = ()  # further values that are so: signs, sizes, places
@@ -32,8 +32,8 @@ def neutrals(x: Any) -> Iterator[Neutral]:
         x: a number, a vector, a matrix, a rotation or a pose; anything else has none.
     """
     if isinstance(x, float) and not isinstance(x, bool):
-        yield Neutral("{} is 0", 0.0, lambda v: v == 0)
-        yield Neutral("{} is 1", 1.0, lambda v: v == 1)
+        yield Neutral("`{}` is 0", 0.0, lambda v: v == 0)
+        yield Neutral("`{}` is 1", 1.0, lambda v: v == 1)
     elif not isinstance(x, np.ndarray):
         return
     elif x.ndim == 1 and len(x) > 1:
@@ -70,16 +70,16 @@ def _of_a_vector(x: Array) -> Iterator[Neutral]:
     ends = [s * each for each in (size, length) for s in (1.0, -1.0)]
     all_of = [np.full_like(x, s * size) for s in _SEVERAL]
     all_of += [np.full_like(x, s * length / np.sqrt(len(x))) for s in (1.0, -1.0)]
-    yield Neutral("{} is 0", np.zeros_like(x), lambda v: not v.any())
+    yield Neutral("`{}` is 0", np.zeros_like(x), lambda v: not v.any())
     yield Neutral(
-        "all entries of {} are equal",
+        "all entries of `{}` are equal",
         np.full_like(x, x[0]),
         lambda v: bool((v == v[0]).all()),
         tuple(all_of),
     )
     places = np.eye(len(x), dtype=x.dtype)
     yield Neutral(
-        "only one entry of {} is not 0",
+        "only one entry of `{}` is not 0",
         np.where(np.arange(len(x)) == np.argmax(np.abs(x)), x, 0.0),
         lambda v: int(np.count_nonzero(v)) == 1,
         tuple(s * one for s in (*ends, 5.0 * size, -0.2 * size) for one in places),
@@ -91,7 +91,7 @@ def _of_a_vector(x: Array) -> Iterator[Neutral]:
         for sign, word in ((1.0, "negative"), (-1.0, "positive")):
             sized = sign * np.abs(x)
             yield Neutral(
-                f"no entry of {{}} is {word}",
+                f"no entry of `{{}}` is {word}",
                 sized,
                 lambda v, sign=sign: bool((sign * v >= 0).all()),  # type: ignore[misc]
                 tuple(s * np.roll(sized, i) for i, s in enumerate((5.0, 0.2))),
@@ -103,7 +103,7 @@ def _half(x: Array, some: slice, where: str) -> Neutral:
     found = x.copy()
     found[some] = 0.0
     others = tuple(s * found for s in _SEVERAL[1:])
-    return Neutral(f"{{}}{where} is 0", found, lambda v: not v[some].any(), others)
+    return Neutral(f"`{{}}{where}` is 0", found, lambda v: not v[some].any(), others)
 
 
 def _of_a_stack(x: Array) -> Iterator[Neutral]:
@@ -117,26 +117,26 @@ def _of_a_stack(x: Array) -> Iterator[Neutral]:
         turned[:, :3, 3] = 0.0
         moved[:, :3, :3] = np.eye(3)
         yield Neutral(
-            "every pose of {} is the identity",
+            "every pose of `{}` is the identity",
             np.zeros_like(x) + np.eye(4),
             lambda v: not (v - np.eye(4)).any(),
         )
         yield Neutral(
-            "no pose of {} translates", turned, lambda v: not v[:, :3, 3].any()
+            "no pose of `{}` translates", turned, lambda v: not v[:, :3, 3].any()
         )
         yield Neutral(
-            "no pose of {} rotates",
+            "no pose of `{}` rotates",
             moved,
             lambda v: not (v[:, :3, :3] - np.eye(3)).any(),
         )
     if kind == "rotations":
         yield Neutral(
-            "every rotation of {} is the identity",
+            "every rotation of `{}` is the identity",
             np.zeros_like(x) + np.eye(3),
             lambda v: not (v - np.eye(3)).any(),
         )
     yield Neutral(
-        f"all {kind} of {{}} are the same",
+        f"all {kind} of `{{}}` are the same",
         np.zeros_like(x) + x[0],
         lambda v: not (v - v[0]).any(),
         tuple(np.zeros_like(x) + one for one in x[1:]),
@@ -148,21 +148,21 @@ def _of_a_matrix(x: Array) -> Iterator[Neutral]:
     if x.shape == (4, 4) and rigid(x[None]):
         yield from _of_a_pose(x)
     elif x.shape == (3, 3) and rigid(x[None]):
-        yield Neutral("{} is the identity matrix", np.eye(3), _is_identity)
+        yield Neutral("`{}` is the identity matrix", np.eye(3), _is_identity)
     elif square:
         diagonal = np.diag(np.diag(x))
         yield Neutral(
-            "{} is diagonal",
+            "`{}` is diagonal",
             diagonal,
             lambda v: len(v) == v.shape[1] and not (v - np.diag(np.diag(v))).any(),
             tuple(scaled(diagonal, s) for s in _SEVERAL[1:]),
         )
-        yield Neutral("{} is the identity matrix", np.eye(len(x)), _is_identity)
-        yield Neutral("{} is 0", np.zeros_like(x), lambda v: not v.any())
+        yield Neutral("`{}` is the identity matrix", np.eye(len(x)), _is_identity)
+        yield Neutral("`{}` is 0", np.zeros_like(x), lambda v: not v.any())
     else:
         columns = [x * (np.arange(x.shape[1]) == i) for i in range(x.shape[1])]
         yield Neutral(
-            "only one column of {} is not 0",
+            "only one column of `{}` is not 0",
             columns[0],
             lambda v: int(v.any(axis=0).sum()) == 1,
             tuple(s * one for one in columns for s in _SEVERAL[:4]),
@@ -174,9 +174,9 @@ def _of_a_pose(T: Array) -> Iterator[Neutral]:
     moved = T.copy()
     turned[:3, 3] = 0.0
     moved[:3, :3] = np.eye(3)
-    yield Neutral("{} does not translate", turned, lambda v: not v[:3, 3].any())
+    yield Neutral("`{}` does not translate", turned, lambda v: not v[:3, 3].any())
     yield Neutral(
-        "{} does not rotate",
+        "`{}` does not rotate",
         moved,
         lambda v: np.array_equal(v[:3, :3], np.eye(3)),
         tuple(_moved(moved, s) for s in _SEVERAL[1:]),

@@ -13,11 +13,19 @@ import numpy as np
 
 from labkit.base.exchange import Exchange
 from labkit.judge import results
-from labkit.judge.answers import InTurn, Parts, capitalised, listed, matches, parts
+from labkit.judge.answers import (
+    InTurn,
+    Parts,
+    capitalised,
+    is_or_are,
+    listed,
+    matches,
+    parts,
+)
 from labkit.judge.ask import Ask, Asked, stacked
 from labkit.judge.hypothesis import evidence
 from labkit.judge.matrix_kinds import SWAPPED
-from labkit.judge.mistake import Finding, Mistake
+from labkit.judge.mistake import Finding, Mistake, as_sentence
 from robo47.checks import Array
 
 SAME, TRANSPOSED, RESHAPED, MIXED = "same", "transposed", "reshaped", "mixed"
@@ -58,7 +66,7 @@ def _first(asked: Asked, mine: Sequence[Answer], found: Finding, how: str) -> Fi
         if isinstance(mistake.redo, InTurn):
             again = _again(mistake, arguments, len(mine))
             if len(again) == len(mine) and all(map(_same, mine, again)):
-                says = f"{capitalised(mistake.says)}. {found.message} "
+                says = f"{as_sentence(capitalised(mistake.says))} {found.message} "
                 says += f"{capitalised(mistake.does(how))}."
                 return Finding(mistake.slug, says)
     return found
@@ -91,7 +99,7 @@ def in_another_order(asked: Asked, found: Finding) -> Finding:
         telling += any(len(set(its[j].ravel().tolist())) > 1 for j in off)
         for j in off:
             moved[j] = moved.get(j, how[j]) & how[j]
-    known = SWAPPED in found.message  # that they are transposed
+    known = SWAPPED in found.message.lower()  # that they are transposed
     if telling < AGREE or known:
         return found
     return Finding(found.slug, f"{found.message} {_in_words(asked.ask, moved)}")
@@ -120,11 +128,11 @@ def _in_words(ask: Ask, moved: Mapping[int, set[str]]) -> str:
     names = [ask.kinds[j].called for j in moved if len(ask.kinds) > 1]
     which = listed(names) if names and all(names) else "the result"
     if TRANSPOSED in ways:
-        verb = "is" if len(names) < 2 else "are"
-        return f"All entries are right, but {which} {verb} transposed."
+        verb = is_or_are(names or [which])
+        return f"All entries are correct, but {which} {verb} transposed."
     if RESHAPED in ways:
-        return "All entries and their order are right. Only the shape is wrong."
-    return f"All entries are right, but their order is wrong in {which}."
+        return "All entries and their order are correct. Only the shape is wrong."
+    return f"All entries are correct, but their order is wrong in {which}."
 
 
 def _again(mistake: Mistake, arguments: tuple[Any, ...], n: int) -> list[Answer]:

@@ -6,10 +6,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from labkit.base.text import count
 from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import (
-    capitalised,
     difference,
     gap,
     in_calls,
@@ -43,10 +41,11 @@ class _Halves(Kind):
             return found
         for i, slug in enumerate(("second-half-off", "first-half-off")):
             if off[i] <= RIGHT:
-                says = f"{self.halves[i]} is right, but {self.halves[1 - i]} is off by"
-                return Finding(slug, f"{capitalised(says)} up to {self.apart(S, T)}.")
-        says = f"{self.halves[0]} and {self.halves[1]} are both wrong: off by up to"
-        return Finding("both-halves-off", f"{capitalised(says)} {self.apart(S, T)}.")
+                says = f"Your {self.halves[i]} is correct, but your "
+                says += f"{self.halves[1 - i]} is off by up to {self.apart(S, T)}."
+                return Finding(slug, says)
+        says = f"Your {self.halves[0]} and your {self.halves[1]} are both wrong, by up "
+        return Finding("both-halves-off", f"{says}to {self.apart(S, T)}.")
 
 
 @dataclass(frozen=True)
@@ -95,7 +94,7 @@ class Points(Kind):
         if len(words) == 2 and "0" in words:
             right, wrong = (1, 0) if words[1] == "0" else (0, 1)
             off = self.names[wrong]
-            says = f"The {self.names[right]} is right, but the {off} is off by up to"
+            says = f"The {self.names[right]} is correct, but the {off} is off by up to"
             return Finding(f"{off}-off", f"{says} {words[wrong]}.")
         each = ", ".join(
             f"{mm} for the {name}" for mm, name in zip(words, self.names, strict=False)
@@ -240,10 +239,15 @@ class Mask(Kind):
             says = f"Your function returned {odd[0]:zg}; expected {self.expected}."
             return Finding("not-true-or-false", says)
         yes, no = int(np.sum((S == 1) & (T == 0))), int(np.sum((S == 0) & (T == 1)))
-        parts = [f"True in {count(yes, 'case')} where False is expected"] * (yes > 0)
-        parts += [f"False in {count(no, 'case')} where True is expected"] * (no > 0)
+        where = ("entry", "entries") if self.shape else ("call", "calls")
         slug = "both-ways" if yes and no else f"too-{'often' if yes else 'seldom'}-true"
-        return Finding(slug, f"Your function returned {', and '.join(parts)}.")
+        parts = [
+            f"{value} in {n:,} {where[n > 1]}; expected {not value}"
+            for value, n in ((True, yes), (False, no))
+            if n
+        ]
+        says = f"Your function returned {'. It returned '.join(parts)}."
+        return Finding(slug, says)
 
 
 @dataclass(frozen=True)
@@ -259,15 +263,15 @@ class Waypoints(Matrix):
     def another_size(self, got: tuple[int, ...], right: tuple[int, ...]) -> str:  # noqa: D102
         if got[1:] != right[1:]:
             return super().another_size(got, right)
-        return "Your path has a wrong number of waypoints"
+        return "Your path has the wrong number of waypoints"
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         off = gap(S, T) / self.scale > RIGHT
         first = int(np.argmax(off.any(axis=(0, 2))))
-        says = f"The path is right before waypoint {first}, counted from 0, "
+        says = f"The path is correct before waypoint {first}, counted from 0, "
         says += "and wrong there"
         says = says if first else "The path is wrong from its first waypoint on"
-        return Finding("off", f"{says}: off by up to {self.apart(S, T)}.")
+        return Finding("off", f"{says}, by up to {self.apart(S, T)}.")
 
 
 @dataclass(frozen=True)

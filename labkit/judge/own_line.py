@@ -8,7 +8,7 @@ student's is which of the reference's, so that a line with a wrong variable is f
 
 import ast
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -51,6 +51,39 @@ class OwnFunction:
         pairs = zip(form.names, self._own[fits[0]].names, strict=True)
         text = ast.unparse(fits[0]).splitlines()[0].removesuffix(":")
         return Line(fits[0].lineno, text, {**self.names, **dict(pairs)})
+
+    def expression(self, around: Sequence[ast.expr], most: int) -> str:
+        """Return the student's text of a mutant's expression; "" without one.
+
+        It is the largest of those around the change that the student's function has.
+        One that the reference has as well says nothing.
+
+        Args:
+            around: the changed expression, what it is a part of, and so on.
+            most: characters of the text.
+        """
+        found = ""
+        for node in around:
+            text = _named(node, self.names)
+            mine = self._own_expressions.get(text)
+            if mine is None:
+                continue
+            if _tells(node) and text not in self._right:
+                one = ast.unparse(mine)
+                found = one if len(one) <= most else found
+        return found
+
+    @cached_property
+    def _own_expressions(self) -> dict[str, ast.expr]:
+        """The student's expressions by their form, with their names."""
+        some = (n for s in _statements(self.own) for n in ast.walk(s))
+        return {_named(n, {}): n for n in some if isinstance(n, ast.expr)}
+
+    @cached_property
+    def _right(self) -> set[str]:
+        """The expressions of the right function, in the student's names."""
+        some = (n for s in _statements(self.reference) for n in ast.walk(s))
+        return {_named(n, self.names) for n in some if isinstance(n, ast.expr)}
 
     def _is_one(self, form: _Form, other: _Form) -> bool:
         """Return whether a student's statement is one, with the variables known."""
@@ -96,6 +129,11 @@ def _statements(function: ast.FunctionDef) -> Iterator[ast.stmt]:
             yield node
 
 
+def _tells(node: ast.expr) -> bool:
+    """Return whether an expression joins two names or numbers: -x says too little."""
+    return sum(isinstance(n, ast.Name | ast.Constant) for n in ast.walk(node)) > 1
+
+
 def _head(statement: ast.stmt) -> ast.AST:
     """Return a statement, or what stands in the first line of a loop or a condition."""
     match statement:
@@ -110,33 +148,45 @@ def _head(statement: ast.stmt) -> ast.AST:
 def _form(node: ast.AST, arguments: list[str]) -> _Form:
     """Return a statement without the names of its own variables."""
     names: dict[str, str] = {}
-    text = _written(node, arguments, names)
+
+    def called(name: str) -> str:
+        if name in arguments:
+            return f"argument {arguments.index(name)}"
+        if name in _KNOWN:
+            return name
+        return names.setdefault(name, f"name {len(names)}")
+
+    text = _written(node, called)
     return _Form(text, tuple(names), sum(1 for _ in ast.walk(node)))
 
 
-def _written(node: Any, arguments: list[str], names: dict[str, str]) -> str:
+def _named(node: ast.AST, names: Mapping[str, str]) -> str:
+    """Return an expression in other names; one that has no other stays as it is."""
+    return _written(node, lambda name: names.get(name, name))
+
+
+def _written(node: Any, called: Callable[[str], str]) -> str:
+    """Return what is the same of two expressions that are written alike."""
     if isinstance(node, ast.Name):
-        if node.id in arguments:
-            return f"argument {arguments.index(node.id)}"
-        if node.id in _KNOWN:
-            return node.id
-        return names.setdefault(node.id, f"name {len(names)}")
+        return called(node.id)
+    if isinstance(node, ast.Constant):
+        return repr(float(node.value) if type(node.value) is int else node.value)
     if isinstance(node, ast.BinOp) and isinstance(node.op, SYMMETRIC):
         some = sorted((node.left, node.right), key=_blank)
-        texts = [_written(one, arguments, names) for one in some]
+        texts = [_written(one, called) for one in some]
         return f"{type(node.op).__name__}({', '.join(texts)})"
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         given = [*node.args, *(one.value for one in node.keywords)]
-        texts = [_written(one, arguments, names) for one in given]
+        texts = [_written(one, called) for one in given]
         return f"{node.func.id}({', '.join(texts)})"
     if isinstance(node, list):
-        return f"[{', '.join(_written(one, arguments, names) for one in node)}]"
+        return f"[{', '.join(_written(one, called) for one in node)}]"
     if not isinstance(node, ast.AST):
         return repr(node)
     if isinstance(node, ast.expr_context):
         return ""
     fields = (value for _, value in ast.iter_fields(node))
-    texts = [_written(value, arguments, names) for value in fields]
+    texts = [_written(value, called) for value in fields]
     return f"{type(node).__name__}({', '.join(texts)})"
 
 

@@ -60,7 +60,7 @@ def two_at_once(m: Matcher) -> Finding | None:
         pairs = _Pairs(m, i)
         some = (pairs.of_its_kind, pairs.added, pairs.finished, pairs.in_turn)
         if found := next(filter(None, (one() for one in some)), None):
-            says = [_BUT.sub("", one.says.rstrip("?")) for one in found]
+            says = [_BUT.sub("", one.says) for one in found]
             return _told(m, [one.slug for one in found], says)
     return None
 
@@ -344,7 +344,7 @@ class _Half:
     def says(self) -> str:
         """The sentence that stands alone; "" without one."""
         one = self.one
-        return half(self.m, one) if isinstance(one, Mutant) else one.says.rstrip("?")
+        return half(self.m, one) if isinstance(one, Mutant) else one.says
 
     def apart(self, other: "_Half") -> bool:
         """Return whether two are of two places, and not both named: that is tried."""

@@ -24,7 +24,7 @@ BEYOND = 20.0  # how much larger than the least entry that is asked
 class Span:
     """One range of an argument."""
 
-    says: str  # "for {} between 0 and pi"
+    says: str  # "for `{}` between 0 and pi"
     holds: Callable[[Any], bool]  # whether a value of the argument is in it
     # From values of the argument, any, to values in the range, near its ends as well.
     values: Callable[[Sequence[Any]], list[Any]]
@@ -43,12 +43,12 @@ def spans(x: Any, asked: Sequence[Any], right: Sequence[bool]) -> Iterator[Span]
         sizes = [abs(one) for one in asked]
         beyond = _range(sizes, right)
         if beyond and beyond[1] == max(sizes) and 0.0 < beyond[0] < SMALL * beyond[1]:
-            says = f"whenever {{}} has a magnitude of {number(beyond[0])} or more"
+            says = f"whenever `{{}}` has a magnitude of {number(beyond[0])} or more"
             yield Span(says, partial(_above, beyond[0]), partial(_beyond, *beyond))
         elif between:
             low, high = between
             yield Span(
-                f"for {{}} between {number(low)} and {number(high)}",
+                f"for `{{}}` between {number(low)} and {number(high)}",
                 partial(_inside, low, high),
                 partial(_between, low, high),
             )
@@ -62,9 +62,8 @@ def spans(x: Any, asked: Sequence[Any], right: Sequence[bool]) -> Iterator[Span]
         low = between[0]
         usual = float(np.median(np.abs(np.concatenate(list(asked)))))
         if min(least) < low <= SMALL * usual:
-            says = (
-                f"whenever every entry of {{}} has a magnitude of {number(low)} or more"
-            )
+            says = "whenever every entry of `{}` has a magnitude of "
+            says += f"{number(low)} or more"
             yield Span(says, partial(_above, low), partial(_lifted, low))
 
 

@@ -118,8 +118,10 @@ def expected(kind: Kinds) -> str:
     """Return what is expected, as the end of a sentence."""
     if isinstance(kind, Kind):
         return f"expected {kind.expected}"
-    every = ", ".join(_expected(one) for one in kind)
-    return f"expected {len(kind)} results: {every}"
+    every = [_expected(one) for one in kind]
+    if len(set(every)) == 1:
+        return f"expected {len(kind)} results, each {every[0]}"
+    return f"expected {len(kind)} results: {', '.join(every)}"
 
 
 def _given(value: Any) -> str:

@@ -1,9 +1,10 @@
 """Controlled experiments on a wrong function: with which argument neutral it is right.
 
-"The result is right whenever ed is 0, and whenever M is the identity" says which term
-is wrong where no named mistake fits. It is said only where it was tried: at the calls
-that were answered wrongly, made neutral, and then at fifty inputs and more of both
-signs and several sizes, and then at fresh calls. Each round is one batch of questions.
+"The result is correct whenever `ed` is 0, and whenever `M` is the identity" says which
+term is wrong where no named mistake fits. It is said only where it was tried: at the
+calls that were answered wrongly, made neutral, and then at fifty inputs and more of
+both signs and several sizes, and then at fresh calls. Each round is one batch of
+questions.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -150,7 +151,7 @@ class Experiments:
             others: other wrong functions. What is true of most of them says nothing.
         """
         says = [claim.says for claim in self.tested(others)]
-        return f"The result is right {', and '.join(says)}." if says else ""
+        return f"The result is correct {', and '.join(says)}." if says else ""
 
     def tested(self, others: Sequence[Answers] = ()) -> list[Claim]:
         """Return what holds, the most telling first: two claims at most."""
@@ -210,7 +211,7 @@ class Experiments:
             always = self._growth(before, given)
             if always is None or not np.isclose(always, grew, rtol=1e-3):
                 continue
-            name = f"{self.names[k]}{_sized(self.calls[0][k])}"
+            name = f"`{self.names[k]}`{_sized(self.calls[0][k])}"
             if np.isclose(grew, 1.0, rtol=self.near):
                 if not self._grows_fresh(k, grew):
                     continue

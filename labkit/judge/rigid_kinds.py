@@ -92,11 +92,11 @@ class Pose(Kind):
             return Finding("bottom-row", f"{says}pose.")
         t_off = say_mm(millimetres(t, t_true))
         if difference(R, R_true).max() <= RIGHT and t_off != "0":
-            says = "R is right in every call, but the translation is off by up to"
+            says = "R is correct in every call, but the translation is off by up to"
             return Finding("translation-off", f"{says} {t_off}.")
         slug, message = rotation_wrong(R, R_true)
         if t_off == "0":
-            return Finding(slug, f"The translation is right. {message}")
+            return Finding(slug, f"The translation is correct. {message}")
         slug = "pose-off" if slug == "rotation-off" else slug
         return Finding(
             slug, f"{message} The translation is also wrong, by up to {t_off}."
@@ -126,7 +126,7 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
     if matches(X, np.broadcast_to(np.round(X[0]), X.shape)):
         return Finding(
             "axes-mixed-up",
-            "The columns of R are the right axes, but swapped or with the wrong sign. "
+            "The columns of R are the correct axes, but swapped or with a wrong sign. "
             f"(det R is {np.linalg.det(S[0]):z.0f}.)",
         )
     if mirrored := np.sum(np.linalg.det(S) < 0.0):

@@ -71,6 +71,7 @@ class Table:
 
     code: Code
     slugs: frozenset[str]
+    silent: tuple[str, ...] = ()  # lines without a sentence
 
 
 def inside(where: str, says: str) -> str:
@@ -230,7 +231,8 @@ class Row:
         known = {slug for slug, _, _ in said}
         table = once(code)
         names = (slug.partition(" ")[0] for slug in known)
-        self.tables.append(Table(code, frozenset(names)))
+        silent = tuple(slug.rstrip(":") for slug, says, _ in said if not says)
+        self.tables.append(Table(code, frozenset(names), silent))
         for slug, says, both in said:
             one = entry_of(table, slug, known)
             update_wrapper(one, code, (), ())  # its arguments' names

@@ -7,10 +7,11 @@ of the arguments, or stand in the student's own function.
 import ast
 import builtins
 import copy
+import re
 from collections.abc import Sequence
 from typing import Any
 
-from labkit.judge.answers import capitalised
+from labkit.judge.answers import SYMBOLS, capitalised, listed
 from labkit.judge.form import is_of_its_form
 from labkit.judge.hypothesis import evidence
 from labkit.judge.mistake import REDONE, Finding
@@ -23,38 +24,38 @@ from labkit.lesson.starter import function_lines
 MODULES = ("np", "se3", "screws", "math")
 EVERYWHERE = ", in every line of its kind"  # of a change that is made in several places
 
-# What is said of a change where its place says no more.
+# What "your code" does, where the place of a change says no more.
 SAYS = {
-    "sign": "one sign is reversed",
-    "negated": "one sign is reversed",
-    "order": "two operands are in the wrong order",
-    "left-out": "a part of the formula is missing",
-    "operation": "one operator is wrong",
-    "sign-lost": "a sign is lost, because the code takes an absolute value",
-    "name": "one variable is used where another belongs",
-    "index": "an index or a range is wrong",
-    "number": "a number in the formula is wrong",
-    "factor": "a factor of two is missing, or there is one too many",
-    "bracket": "a bracket opens or closes in the wrong place",
-    "transpose": "a transpose is missing, or there is one too many",
-    "inverse": "an inverse is missing, or there is one too many",
-    "squared": "a square is missing, or there is one too many",
-    "exchanged": "two variables are swapped",
-    "scaled": "the result is multiplied or divided by one variable too many",
-    "function": "one function is used where another belongs",
-    "condition": "a condition is wrong",
-    "line": "one line is missing, repeated, or in the wrong place",
-    "clamp": "a limit is missing, or it is applied only on one side",
-    "norm": "a norm or a normalisation is wrong",
-    "root": "a square root is missing, or there is one too many",
-    "unit": "a unit conversion is missing, or there is one too many",
-    "rounded": "a value is rounded inside the formula",
-    "diagonal": "only a part of a matrix is used",
-    "entries": "the entries of a list or vector are in the wrong order",
-    "entry-zero": "one entry of a list or vector is missing, as if it were 0",
-    "entry-twice": "one entry of a list or vector is used where another belongs",
-    "entry-some": "only some entries of a list or vector are used",
-    "added": "a term that does not belong to the formula is added",
+    "sign": "reverses one sign",
+    "negated": "reverses one sign",
+    "order": "puts two operands in the wrong order",
+    "left-out": "omits a part of the formula",
+    "operation": "uses one wrong operator",
+    "sign-lost": "loses a sign, because it takes an absolute value",
+    "name": "uses one variable where another belongs",
+    "index": "uses a wrong index or range",
+    "number": "uses a wrong number in the formula",
+    "factor": "omits a factor of two, or has one too many",
+    "bracket": "opens or closes a bracket in the wrong place",
+    "transpose": "omits a transpose, or has one too many",
+    "inverse": "omits an inverse, or has one too many",
+    "squared": "omits a square, or has one too many",
+    "exchanged": "swaps two variables",
+    "scaled": "multiplies or divides the result by one variable too many",
+    "function": "calls one function where another belongs",
+    "condition": "has a wrong condition",
+    "line": "omits one line, repeats it, or has it in the wrong place",
+    "clamp": "omits a limit, or applies it only on one side",
+    "norm": "uses a wrong norm or normalisation",
+    "root": "omits a square root, or has one too many",
+    "unit": "omits a unit conversion, or has one too many",
+    "rounded": "rounds a value inside the formula",
+    "diagonal": "uses only a part of a matrix",
+    "entries": "puts the entries of a list or vector in the wrong order",
+    "entry-zero": "omits one entry of a list or vector, as if it were 0",
+    "entry-twice": "uses one entry of a list or vector where another belongs",
+    "entry-some": "uses only some entries of a list or vector",
+    "added": "adds a term that does not belong to the formula",
 }
 # Kinds that are true of the numbers, whatever algorithm gives them.
 TELLING = {
@@ -63,47 +64,55 @@ TELLING = {
 }  # fmt: skip
 ORDERED = {ast.List: "entries", ast.Tuple: "entries", ast.Call: "arguments"}
 OF_A_PART = {
-    ast.Add: "a term is missing", ast.Sub: "a term is missing",
-    ast.Mult: "a factor is missing", ast.MatMult: "a factor is missing",
-    ast.Div: "a division is missing", ast.Pow: "a power is missing",
+    ast.Add: "omits a term", ast.Sub: "omits a term",
+    ast.Mult: "omits a factor", ast.MatMult: "omits a factor",
+    ast.Div: "omits a division", ast.Pow: "omits a power",
 }  # fmt: skip
 
 
 def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
-    """Return what is said of a mutant that gives all answers, or of one of two.
+    """Return what is said of the likeliest of some mutants that give all answers.
 
-    One whose line stands in the student's function is the likeliest.
+    It is one that stands in the student's function, else the first.
     """
-    found = next(([one] for one in found if own_line(m, one)), list(found[:2]))
-    texts = [known_text(m, one) for one in found]
-    says = _of_the_formula(m, found[0])
-    if len(found) > 1 and all(texts):
-        some = list(dict.fromkeys(what(one) for one in found))
-        says = f"either {', or '.join(some)}" if len(some) > 1 else some[0]
-        says += f"{WRITTEN} {' or '.join(texts)}"
+    one = next((one for one in found if _in_own_words(m, one)), found[0])
     how = m.with_error(f"{REDONE} {evidence(True)}")
-    return Finding(f"slip-{found[0].kind}", f"{capitalised(says)}. {how}")
+    return Finding(f"slip-{one.kind}", f"{_sentences(m, one)} {how}")
 
 
-def _of_the_formula(m: Any, mutant: Mutant) -> str:
-    """Return `told`, as a change of the correct formula where no line has it.
+def _in_own_words(m: Any, mutant: Mutant) -> bool:
+    """Return whether the student's function has a mutant's line or expression."""
+    return bool(own_line(m, mutant) or own_expressions(m, mutant))
 
-    Another algorithm may have no such bracket or number, although its output equals
-    that of the changed formula.
-    """
-    says = told(m, mutant)
-    known = own_line(m, mutant) or known_text(m, mutant)
-    if mutant.kind in TELLING or known:
-        return says
-    return f"your code gives the result of the correct formula with one change: {says}"
+
+def _sentences(m: Any, mutant: Mutant) -> str:
+    """Return what a student's code does, and the line or the expression that does."""
+    if line := own_line(m, mutant):
+        text = f": `{line.text}`" if len(line.text) <= LONG else ""
+        where = f"The wrong line is line {line.number}{text}."
+        return f"Your code {what(mutant, line)}. {where}"
+    if texts := own_expressions(m, mutant):
+        verb = "expression is" if len(texts) == 1 else "expressions are"
+        return f"Your code {what(mutant)}. The wrong {verb} {listed(texts)}."
+    if tells(mutant):
+        return f"{capitalised(told(m, mutant))}."
+    # Another algorithm may have no such bracket or number, although its output is the
+    # same.
+    says = told(m, mutant).removeprefix("your code ")
+    which = "whose code" if says.startswith("for ") else "that"
+    return f"Your code gives the same result as a solution {which} {says}."
 
 
 def shows(m: Any, mutant: Mutant) -> bool:
-    """Return whether a student can see where a mutant's change would be."""
-    return bool(own_line(m, mutant) or known_text(m, mutant) or glosses(mutant))
+    """Return whether a mutant's sentence says where a change is, or enough without.
+
+    A changed formula whose names a student has seen is told by its kind alone.
+    """
+    if _in_own_words(m, mutant) or glosses(mutant):
+        return True
+    return tells(mutant) and is_known(m, mutant)
 
 
-WRITTEN = ", which gives the wrong expression"
 LONG = 80  # characters; a longer line is named by its number alone
 COMPARES = (ast.Compare, ast.IfExp, ast.BoolOp)
 CHOOSES = ("where", "clip", "min", "max", "minimum", "maximum", "argmin", "argmax")
@@ -160,25 +169,44 @@ def told(m: Any, mutant: Mutant) -> str:
     """Return a clause on a mutant that stands alone."""
     if line := own_line(m, mutant):
         code = f", `{line.text}`" if len(line.text) <= LONG else ""
-        return f"in line {line.number}{code}, {what(mutant, line)}"
-    if text := known_text(m, mutant):
-        return f"{what(mutant)}{WRITTEN} {text}"
-    says = f"{what(mutant)}{_or_transposed(mutant)}"
+        return f"in line {line.number}{code}, your code {what(mutant, line)}"
+    if texts := own_expressions(m, mutant):
+        does = what(mutant).removesuffix(EVERYWHERE)
+        return f"in {listed(texts)}, your code {does}"
+    does = f"{what(mutant)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
-        return says
-    where = " and ".join(f'"{step}"' for step in steps)
-    each = "step" if len(steps) == 1 else "steps"
-    return f"{says.removesuffix(EVERYWHERE)} in the {each} {where}"
+        return f"your code {does}"
+    where = " and ".join(f"for {of_a_step(step)}" for step in steps)
+    comma = "," * ("," in where)
+    return f"your code {where}{comma} {does.removesuffix(EVERYWHERE)}"
+
+
+# Words with which a gloss begins that is no noun without an article.
+DETERMINERS = {
+    "the", "a", "an", "its", "those", "each", "every", "both", "all", "no", "half",
+    "twice", "one", "two", "four", "at", "row",
+}  # fmt: skip
+ADVERBS = {"from", "without", "at", "up", "after", "inward", "outward", "true"}
+
+
+def of_a_step(gloss: str) -> str:
+    """Return a gloss, "overdamped response", as it follows "your code for"."""
+    gloss = re.split(r"[:;] ", gloss)[0]
+    first = gloss.partition(" ")[0]
+    if first.lower() in ADVERBS or not first[:1].isalpha():
+        return f'the step "{gloss}"'
+    symbol = len(first) == 1 or first in SYMBOLS or not first.isalpha()
+    return gloss if symbol or first.lower() in DETERMINERS else f"the {gloss}"
 
 
 def _or_transposed(mutant: Mutant) -> str:
     """Return the other name of a matrix product's wrong order: x A is A^T x."""
     product = isinstance(getattr(mutant.edits[0][0].node, "op", None), ast.MatMult)
-    return ", or a transpose is missing" if mutant.kind == "order" and product else ""
+    return ", or omits a transpose" if mutant.kind == "order" and product else ""
 
 
 def what(mutant: Mutant, line: Line | None = None) -> str:
-    """Return what kind of change a mutant is, in words of the formula.
+    """Return what "your code" does that has a mutant's change.
 
     Args:
         mutant: one that gives the student's answers.
@@ -199,21 +227,30 @@ def _of_an_expression(
     if mutant.kind == "left-out":
         if isinstance(node, ast.BinOp):
             return OF_A_PART.get(type(node.op), "")
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
-            return f"`{ast.unparse(node.func)}` is missing"
+        taught = mutant.body.own and isinstance(node, ast.Call)
+        if taught and _is_of_a_module(node.func):
+            return f"omits `{ast.unparse(node.func)}`"
     if mutant.kind == "factor" and (size := _size(new)):
-        return f"one value is {size} as large as it should be"
+        return f"makes one value {size} as large as it should be"
     if mutant.kind == "sign" and is_sum and (its := _own(node.right, line)):
-        return f"the sign of `{its}` is reversed"
+        return f"reverses the sign of `{its}`"
     if mutant.kind == "name" and isinstance(new, ast.Name) and (its := _own(new, line)):
         return _another_name(mutant, node, new, its)
     if mutant.kind == "order" and (parts := ORDERED.get(type(node))):
-        return f"two {parts} are in the wrong order"
+        return f"puts two {parts} in the wrong order"
     if mutant.kind == "order" and isinstance(node, ast.BinOp):
         pair = [_own(one, line) for one in (node.left, node.right)]
         if all(pair):
-            return f"`{pair[0]}` and `{pair[1]}` are in the wrong order"
+            return f"puts `{pair[0]}` and `{pair[1]}` in the wrong order"
     return ""
+
+
+def _is_of_a_module(function: ast.expr) -> bool:
+    """Return whether a function has a name that students know, as np.sqrt has."""
+    inner = function
+    while isinstance(inner, ast.Attribute):
+        inner = inner.value
+    return inner is not function and getattr(inner, "id", "") in MODULES
 
 
 def _size(new: ast.expr) -> str:
@@ -229,7 +266,7 @@ def _another_name(mutant: Mutant, node: ast.expr, new: ast.Name, its: str) -> st
     wrong = f"`{its}` ({meaning})" if meaning else f"`{its}`"
     right = mutant.body.meaning(node.id) if isinstance(node, ast.Name) else ""
     other = f"another value ({right}) belongs" if right else "another value belongs"
-    return f"{wrong} is used where {other}"
+    return f"uses {wrong} where {other}"
 
 
 def _own(node: ast.expr, line: Line | None) -> str:
@@ -263,7 +300,7 @@ def _own_function(m: Any, mutant: Mutant) -> OwnFunction | None:
             own = definition(m.case.source, mutant.body.name)
         except (SyntaxError, ValueError):
             own = None
-        m.known[key] = own and OwnFunction(own, reference)
+        m.known[key] = own and OwnFunction(own, copy.deepcopy(reference))
     return m.known[key]
 
 
@@ -274,14 +311,23 @@ def glosses(mutant: Mutant) -> list[str]:
     return list(steps) if all(steps) else []
 
 
-def known_text(m: Any, mutant: Mutant) -> str:
-    """Return the changed formula, or "" where a student has not seen its names."""
-    text = mutant.text
-    code = text.removeprefix("without ")
-    names = _names(code)
-    if not names - set(MODULES) or not names <= _known(m, mutant):
-        return ""
-    return f"`{text}`" if code == text else f"the formula without `{code}`"
+def own_expressions(m: Any, mutant: Mutant) -> list[str]:
+    """Return the student's expressions that have a mutant's changes, as quotations.
+
+    There are none where one of the changes is not in the student's function.
+    """
+    if (own := _own_function(m, mutant)) is None:
+        return []
+    with mutant.made():
+        around = map(mutant.around, range(len(mutant.edits)))
+        texts = [own.expression(one, LONG) for one in around]
+    return [f"`{one}`" for one in dict.fromkeys(texts)] if all(texts) else []
+
+
+def is_known(m: Any, mutant: Mutant) -> bool:
+    """Return whether a changed formula has only names that a student has seen."""
+    names = _names(mutant.text.removeprefix("without "))
+    return bool(names - set(MODULES)) and names <= _known(m, mutant)
 
 
 def _names(text: str) -> set[str]:

@@ -28,7 +28,7 @@ from labkit.judge.ask import Ask, Case
 from labkit.judge.hypothesis import equals, evidence
 from labkit.judge.kinds import one_factor
 from labkit.judge.matcher import Calls, Code, Matcher
-from labkit.judge.mistake import REDONE, Finding, Mistake
+from labkit.judge.mistake import REDONE, Finding, Mistake, as_sentence
 from labkit.judge.mutant import FAR, Mutant
 from labkit.judge.sentence import (
     has_its_kind,
@@ -108,7 +108,7 @@ def nearly(m: Matcher) -> Finding | None:
 
 
 def _sentence(one: Mistake) -> str:
-    return capitalised(one.says) + ("" if one.says.endswith("?") else ".")
+    return as_sentence(capitalised(one.says))
 
 
 def with_evidence(m: Matcher, one: Mistake, exact: bool | None = None) -> Finding:
@@ -136,7 +136,8 @@ def of_the_kind(m: Matcher, digits: bool = True) -> Finding | None:
             made = partial(_with_result, i, one.redo)
             again = _as_made(m, made)
             exact = equals(m.ask.kinds, m.S, again)
-            if again and (exact or not digits):
+            told = again and again[i].any()  # of zeros any mistake may be said
+            if told and (exact or not digits):
                 found = with_evidence(m, one, exact)
                 called = kind.called if len(m.S) > 1 else ""
                 return Finding(found.slug, of_result(found.message, called))
@@ -194,7 +195,7 @@ def of_arguments(m: Matcher, digits: bool = True) -> Finding | None:
         if m.main.difference.fits(m.i, answer, digits) and m.holds(code, digits):
             if one.slug in changes.OF_UNITS and (unit := _in_another_unit(m)):
                 return unit
-            says = f"Your code acts as if {one.says}."
+            says = f"Your code {one.says}."
             redone = "the reference solution with this change"
             how = m.with_error(f"{redone} {evidence(m.exact(code))}")
             return Finding(f"argument-{one.slug}", f"{says} {how}")

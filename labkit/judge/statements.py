@@ -6,17 +6,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 Lines = list[ast.stmt]
-Changed = tuple[Lines, str]  # other lines, and what is said of them
+Changed = tuple[Lines, str]  # other lines, and what "your code" does that has them
 OF_A_LOOP = {
-    "[:-1]": "a loop skips its last element",
-    "[1:]": "a loop skips its first element",
-    "[::-1]": "a loop runs in the reverse order",
+    "[:-1]": "skips the last element in a loop",
+    "[1:]": "skips the first element in a loop",
+    "[::-1]": "runs a loop in the reverse order",
 }
 FAR_OF_A_LOOP = {
-    "[:1]": "a loop stops after its first element",
-    "[-1:]": "a loop uses only its last element",
-    "[:2]": "a loop stops after two elements",
-    "[::2]": "a loop skips every second element",
+    "[:1]": "stops a loop after its first element",
+    "[-1:]": "runs a loop only for its last element",
+    "[:2]": "stops a loop after two elements",
+    "[::2]": "skips every second element in a loop",
 }
 
 
@@ -78,9 +78,9 @@ def _near(body: Lines, at: int, line: ast.stmt) -> Iterator[Changed]:
     """Yield a body with another line in one's place, or with two exchanged."""
     before, after = body[:at], body[at + 1 :]
     if not isinstance(line, ast.Return | ast.Expr):
-        yield [*before, ast.Pass(), *after], "a step is missing"
+        yield [*before, ast.Pass(), *after], "omits a step"
     if after and isinstance(line, ast.Assign | ast.AugAssign):
-        yield [*before, after[0], line, *after[1:]], "two steps are in the wrong order"
+        yield [*before, after[0], line, *after[1:]], "does two steps in the wrong order"
     if isinstance(line, ast.AugAssign):
         for new, says in _instead_of_adding(line):
             yield [*before, new, *after], says
@@ -96,31 +96,33 @@ def _far(body: Lines, at: int, line: ast.stmt) -> Iterator[Changed]:
             yield [*before, new, *after], says
         yield (
             [*before, *line.body, *after],
-            "a loop is missing, so its body runs only once",
+            "omits a loop, so its body runs only once",
         )
-        yield [*before, line, line, *after], "a loop runs twice"
+        yield [*before, line, line, *after], "runs a loop twice"
     if isinstance(line, ast.For):
         for new, says in _over_some(line, FAR_OF_A_LOOP):
             yield [*before, new, *after], says
     if isinstance(line, ast.If):
-        says = "a case distinction is missing"
+        says = "omits a case distinction"
         yield [*before, *line.body, *after], says
         yield [*before, *(line.orelse or [ast.Pass()]), *after], says
     if isinstance(line, ast.Continue | ast.Break):
         stops = isinstance(line, ast.Continue)
         other = ast.Break() if stops else ast.Continue()
         says = (
-            "a loop ends where it should continue" if stops else "a loop does not end"
+            "ends a loop that should continue"
+            if stops
+            else "does not end a loop that should end"
         )
         yield [*before, other, *after], says
     if isinstance(line, ast.Assign | ast.AugAssign):
-        yield [*before, line, line, *after], "a step is done twice"
+        yield [*before, line, line, *after], "does a step twice"
         last = after[-1:] if after and isinstance(after[-1], ast.Return) else []
         late = [*before, *after[: len(after) - len(last)], line, *last]
-        yield late, "a step comes too late"
+        yield late, "does a step too late"
         yield from _early_return(before, line, after)
     if isinstance(line, ast.Expr):
-        yield [*before, ast.Pass(), *after], "a step is missing"
+        yield [*before, ast.Pass(), *after], "omits a step"
 
 
 def _early_return(before: Lines, line: Any, after: Lines) -> Iterator[Changed]:
@@ -128,29 +130,29 @@ def _early_return(before: Lines, line: Any, after: Lines) -> Iterator[Changed]:
     targets = line.targets if isinstance(line, ast.Assign) else [line.target]
     if after and isinstance(targets[0], ast.Name):
         early = ast.Return(ast.Name(targets[0].id, ast.Load()))
-        yield [*before, line, early, *after], "the last steps are missing"
+        yield [*before, line, early, *after], "omits the last steps"
 
 
 def _other_loops(body: Lines, at: int, loop: Any) -> Iterator[tuple[ast.stmt, str]]:
     """Yield a loop that ends after one pass, returns in it, or starts anew in each."""
     yield (
         _with(loop, [*loop.body, ast.Break()]),
-        "a loop stops after its first iteration",
+        "stops a loop after its first iteration",
     )
     after = body[at + 1 : at + 2]
     if after and isinstance(after[0], ast.Return):
         inside = _with(loop, [*loop.body, after[0]])
         yield (
             inside,
-            "`return` is inside the loop, so the loop stops after one iteration",
+            "returns inside a loop, so the loop stops after one iteration",
         )
     carried = _stored(loop.body)
     for line in body[:at]:
         if isinstance(line, ast.Assign) and carried & _stored([line]):
             reset = _with(loop, [line, *loop.body])
-            yield reset, "a value is reset in every iteration of a loop"
+            yield reset, "resets a value in every iteration of a loop"
             stale = _with(loop, _stale(loop.body, line))
-            yield stale, "every iteration of a loop uses a value from before the loop"
+            yield stale, "uses a value from before a loop in all its iterations"
 
 
 def _stale(lines: Lines, first: ast.Assign) -> Lines:
@@ -194,13 +196,13 @@ def _instead_of_adding(line: ast.AugAssign) -> Iterator[tuple[ast.stmt, str]]:
     value = line.value
     if isinstance(line.op, ast.Sub):
         plus = ast.AugAssign(line.target, ast.Add(), value)
-        yield plus, "a term is added instead of subtracted"
+        yield plus, "adds a term instead of subtracting it"
         value = ast.UnaryOp(ast.USub(), value)
     elif isinstance(line.op, ast.Add):
         minus = ast.AugAssign(line.target, ast.Sub(), value)
-        yield minus, "a term is subtracted instead of added"
+        yield minus, "subtracts a term instead of adding it"
     only = ast.Assign([line.target], value, lineno=line.lineno)
     yield (
         only,
-        "a sum keeps only its last term, because the term is assigned, not added",
+        "keeps only the last term of a sum, because it assigns each term",
     )

@@ -5,6 +5,7 @@ integer; a truth value is True or False, an index an index.
 """
 
 import math
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -96,4 +97,7 @@ def number(x: float) -> str:
             return f"{sign}{many}pi" + (f" / {over}" if over > 1 else "")
     if (short := round(x, 9)) and abs(x - short) <= DUST * np.spacing(abs(x)):
         x = short  # 0.831, and not the 0.8310000000000001 of a sum
-    return repr(round(x)) if x == round(x) and abs(x) < 1e6 else repr(x)
+    if x == round(x) and abs(x) < 1e6:
+        return repr(round(x))
+    text = re.sub(r"e\+0?", "e", f"{x:.6g}") if abs(x) >= 1e6 else ""  # 1e14
+    return text if "e" in text and float(text) == x else repr(x)

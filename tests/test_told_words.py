@@ -1,0 +1,140 @@
+"""The words of the checker's sentences: one place makes each of them."""
+
+import inprocess
+import numpy as np
+import pytest
+from toyrows import row_of, told
+
+from labkit.judge import Jacobian, Mask, Matrix, Scalar, Twist, Vector
+from labkit.judge.answers import is_or_are, of_result
+from labkit.judge.matrix_kinds import part_off
+from labkit.judge.mistake import both_told
+from labkit.judge.results import expected
+
+
+def test_what_a_wrong_shape_comes_from_is_a_sentence():
+    found = Jacobian((6, 7)).read([np.zeros((7, 6))])
+    assert found.message.endswith("a 6x7 matrix. Rows and columns are swapped.")
+
+
+def test_results_that_are_alike_are_described_once():
+    seven, one = Vector((7,)), Scalar()
+    assert expected((seven, seven)) == "expected 2 results, each a vector of 7 numbers"
+    both = "expected 2 results: a vector of 7 numbers, one number"
+    assert expected((seven, one)) == both
+
+
+def test_a_half_that_is_correct_is_yours():
+    T = np.array([[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [2.0, 1.0, 0.0, 5.0, 1.0, 4.0]])
+    S = T + np.array([0.0, 0.0, 0.0, 0.5, -0.25, 0.0])
+    says = "Your omega is correct, but your v is off by up to 0.5."
+    assert Twist().what_is_wrong(S, T).message == says
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns", "where"),
+    [
+        (
+            ("vx", "vy", "vz"),
+            ("a", "b", "c", "d"),
+            "the rows vx and vy of the column b.",
+        ),
+        (("the x", "the y", "the z"), (), "the rows of the x and the y of column 1"),
+        ((), (), "rows 0 to 1 of column 1, counted from 0."),
+    ],
+)
+def test_entries_that_are_wrong_are_in_rows_of_columns(rows, columns, where):
+    T = np.arange(48.0).reshape(4, 3, 4) ** 1.5
+    S = T.copy()
+    S[:, :2, 1] += [[1.0, 2.0], [3.0, 4.0], [0.5, 1.0], [1.0, 3.0]]
+    kind = Matrix((3, 4), rows=rows, columns=columns)
+    if not rows:
+        S[:, 1, 1] += 1.0
+    says = part_off(kind, S, T).message
+    assert says.startswith(f"All entries are correct except in {where}")
+
+
+def test_a_verb_agrees_with_its_result():
+    assert of_result("The result is off by up to 2.", "the levels") == (
+        "The levels are off by up to 2."
+    )
+    singular = ("the loss", "the NIS", "the axis", "the vector of means", "v", "m")
+    assert {is_or_are([name]) for name in singular} == {"is"}
+    assert is_or_are(["the images"]) == is_or_are(["A", "B"]) == "are"
+
+
+def test_a_mistake_that_is_a_question_keeps_its_mark():
+    says = both_told("does your loop end one sample too early?", "your code adds 1")
+    assert says == (
+        "Your code has two mistakes. First, does your loop end one sample too early? "
+        "Second, your code adds 1."
+    )
+
+
+def test_truth_values_are_counted_in_calls_or_entries():
+    T = np.array([0.0, 0.0, 1.0, 1.0])
+    says = Mask().what_is_wrong(np.array([1.0, 1.0, 0.0, 1.0]), T).message
+    assert says == (
+        "Your function returned True in 2 calls; expected False. "
+        "It returned False in 1 call; expected True."
+    )
+
+
+def test_a_result_that_is_larger_by_orders_of_magnitude_diverges():
+    T = np.array([[1.0, 2.0], [3.0, 4.0]])
+    kind = Vector((2,), "m")
+    assert kind.largest_error(T * [1.0, 3.0e13], T) == (
+        "The result diverges: it is over 1e13 times as large as expected."
+    )
+    assert kind.largest_error(T * [1.0, 1.0e6], T).startswith("Largest error: ")
+
+
+def numbers(rng):
+    return [(rng.numbers(0.1, 0.9, 3),) for _ in range(6)]
+
+
+def large(rng):
+    return [(rng.numbers(1.1, 4.9, 3),) for _ in range(6)]
+
+
+@pytest.mark.parametrize(("inputs", "is_told"), [(numbers, False), (large, True)])
+def test_whole_numbers_are_told_only_where_a_right_answer_has_one(inputs, is_told):
+    row = row_of(Vector((3,)), lambda x: x, inputs)
+    tiny = (lambda x: np.trunc(x)) if is_told else (lambda x: 1e-4 * x * x)
+    verdict = told(row, tiny)
+    assert (verdict.mistake == "whole-numbers") == is_told
+
+
+def sizes(rng):
+    return [(rng.numbers(1, 5, n),) for n in (2, 3, 4, 6, 7, 8)]
+
+
+@pytest.mark.parametrize("many", [False, True])
+def test_the_call_that_is_shown_has_the_wrong_shape_that_is_told(many):
+    shape = Vector((None,))
+    kinds = (Scalar(called="the sum"), shape) if many else shape
+    row = row_of(kinds, lambda x: (x.sum(), x + 1) if many else x + 1, sizes)
+
+    def student(x):
+        one = x + 1 if len(x) < 6 else np.append(x + 1, 0.0)
+        one = one + (len(x) == 2)  # a value is wrong in a shorter call
+        return (x.sum(), one) if many else one
+
+    verdict = told(row, student)
+    assert "wrong shape in 3 of 6 calls" in verdict.message
+    assert "returned shape (7,); expected shape (6,)." in verdict.call
+
+
+def test_a_result_of_several_that_has_a_wrong_shape_is_shown():
+    kinds = Scalar(called="the sum"), Vector((3,), called="the sums")
+    row = row_of(kinds, lambda x: (x.sum(), x + 1), large)
+    verdict = told(row, lambda x: (x.sum(), (x + 1)[:2]))
+    assert verdict.call.endswith("[1] returned shape (2,).")
+
+
+def test_an_argument_handed_back_inside_a_tuple_shares_its_memory():
+    x, y = np.ones(3), np.ones(3)
+    assert inprocess._shares((y.copy(), x[1:]), [], [y, x]) == ([], [1])
+    kept = []
+    assert inprocess._shares((x,), kept, []) == ([], [])
+    assert inprocess._shares((y, x[:1]), kept, []) == (["another answer"], [])
