@@ -36,8 +36,8 @@ def _(x):
     spread-for-all: your code uses one standard deviation for all columns. Each column
       has its own unit and its own scale, so use axis=0
     variance: your second row is the variance. Take the square root of the variance
-    deviation: your second row is the mean absolute deviation. Take the root of the mean
-      squared deviation instead
+    deviation: your second row is the mean absolute deviation. Take the square root of
+      the mean squared deviation instead
     min-max: your code returns the minimum and the range of each column. Return the mean
       and the standard deviation instead
     constant-0: your code returns a standard deviation of 0 for a constant column, so
