@@ -38,10 +38,10 @@ def _(abars, sigma):
       Multiply the result by the cosine of this step as well
     last-step-forgotten 2: your code omits the step from the last level to abar = 1 if
       there are several levels. Multiply the result by the cosine of this step as well
-    last-level-0: your last step leads to abar = 0, which is pure noise. It should lead
-      to abar = 1, which is the data without noise
-    last-level-first: your code inserts abar = 1 before the other levels. Append it
-      after the other levels, because the last step leads to abar = 1
+    last-level-0: your last step leads to abar = 0, which is pure noise. This step
+      should lead to abar = 1, which is the data without noise
+    last-level-first: your code puts abar = 1 before the other levels. Put it after the
+      other levels instead, because the last step leads to abar = 1
     sines: your code multiplies the sines of the angles. Use the cosines instead,
       because each step multiplies the width by the cosine of its angle
     pure-noise-first: your code adds a step from abar = 0 to the first level. Omit this
