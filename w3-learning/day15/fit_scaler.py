@@ -27,10 +27,11 @@ row.cases(
 
 @row.wrongs
 def _(x):
-    """n-minus-one: your code divides by n - 1 in the standard deviation. Divide by n,
-      so that normalised columns have a standard deviation of exactly 1
-    about-0: your second row is the root mean square. Subtract the mean first, so that
-      the result is the standard deviation
+    """n-minus-one: your code computes the standard deviation with the divisor n - 1.
+      Divide by n instead, so that normalised columns have a standard deviation of
+      exactly 1
+    about-0: your second row contains the root mean square of each column. Subtract the
+      mean of the column first, so that the result is the standard deviation
     one-for-all: your code uses one mean and one standard deviation for all columns.
       Each column has its own unit and its own scale, so use axis=0
     spread-for-all: your code uses one standard deviation for all columns. Each column
@@ -42,8 +43,8 @@ def _(x):
       and the standard deviation instead
     constant-0: your code returns a standard deviation of 0 for a constant column, so
       `normalise` would divide by 0. Return 1 for such a column
-    about-0 2: your second row is the root mean square. Subtract the mean first, so that
-      the result is the standard deviation
+    about-0 2: your second row contains the root mean square of each column. Subtract
+      the mean of the column first, so that the result is the standard deviation
     one-for-all 2: your code uses one mean and one standard deviation for all columns.
       Each column has its own unit and its own scale, so use axis=0
     spread-for-all 2: your code uses one standard deviation for all columns. Each column

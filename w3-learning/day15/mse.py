@@ -36,8 +36,8 @@ def _(pred, target):
       loss is a mean over n * m entries
     divided-by-rows: your code divides the gradient only by the number of rows. Divide
       it by n * m, because the loss is a mean over rows and columns
-    half: your loss and its gradient contain a factor of 1/2. Omit it, because the loss
-      of this task is the mean of the squared errors
+    half: your loss and its gradient contain a factor of 1/2. Omit this factor, because
+      the loss of this task is the mean of the squared errors
     """
     e = pred - target
     n = len(e)

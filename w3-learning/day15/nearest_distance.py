@@ -22,7 +22,7 @@ def _(known, asked):
       row of `asked`. Return the distance from each row of `asked` to the nearest row of
       `known` instead
     column-by-column: your code chooses the nearest value in each column separately.
-      Choose one nearest row for all columns
+      Choose one nearest row for all columns instead
     mean-distance: your result is the mean of the distances to all rows of `known`.
       Return the smallest distance instead
     to-the-mean: your result is the distance to the mean of the rows of `known`. Return

@@ -65,7 +65,7 @@ def _(action, episode):
       these means. Take one mean over all pairs instead, so that each pair has the same
       weight
     mean-action: your result is the loss of a policy that always returns the mean
-      action. Use the action of the previous row as the prediction
+      action. Use the action of the previous row as the prediction instead
     divided-by-all: your code divides the sum of the squared changes by the number of
       entries in `action`. An episode with n rows has only n - 1 changes, so divide by
       the number of squared changes

@@ -42,8 +42,8 @@ def _(episode, held_out):
       rows that are held out
     swapped: your code swaps the arguments of `np.isin`, so the result has one entry per
       held-out episode. Return one entry per row
-    indices: your code returns the indices of the held-out rows. Return a mask with True
-      or False for every row
+    indices: your code returns the indices of the held-out rows. Return a mask instead,
+      with True or False for every row
     as-a-range: your code holds out all episodes from the smallest to the largest number
       in held_out. Hold out only the episodes whose numbers are in held_out
     positions: your code renumbers the episodes as 0, 1, 2, ... in ascending order and

@@ -25,8 +25,8 @@ def _(wait, K):
     """majority: your function returns the median over the rows, which is 1 if the
       motion has started in more than half of the rows. Return the fraction of the rows
       in which the motion has started instead
-    wait-not-plus-1: your code divides by `wait`. Divide by wait + 1 instead, because
-      wait + 1 rows have the same observation
+    wait-not-plus-1: your code divides j + 1 by `wait`. Divide it by wait + 1 instead,
+      because wait + 1 rows have the same observation
     not-clamped: your function returns fractions above 1. Limit each fraction to 1,
       because the motion has started in all rows from entry `wait` on
     one-jump: your function returns the chunk of the first row, which is 0 before entry

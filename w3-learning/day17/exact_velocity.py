@@ -65,7 +65,8 @@ def _(x, t, means, sigma, weights):
       t^2 * sigma^2 + (1 - t)^2 instead, because the variance contains the squares of
       the factors of data and noise
     noisy-means: your code uses t times the mode's mean as the mean velocity in a mode.
-      Use the mode's mean itself, because t times the mode's mean is the mean of x
+      Use the mode's mean itself instead, because t times the mode's mean is the mean of
+      x
     division-by-0: your code divides by 1 - t, which is 0 at t = 1. Use the formula of
       the conditional mean instead, which divides only by the variance of x in each mode
     means-only: your code uses the mode's mean as the velocity in a mode. Add (x - t *

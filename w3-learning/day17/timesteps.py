@@ -42,7 +42,7 @@ def _(T, n):
       between them
     ascending: your levels are in ascending order. Return them in descending order,
       because a sampler starts at the noisiest level, T - 1
-    one-step-at-0: your function returns the level 0 for n = 1. Return T - 1 instead,
+    one-step-at-0: your function returns level 0 for n = 1. Return T - 1 instead,
       because a sampler always starts at the noisiest level
     rounded-down: your code rounds the levels down. Round them to the nearest whole
       number instead

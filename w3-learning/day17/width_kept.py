@@ -51,7 +51,7 @@ def _(abars, sigma):
     sum: your function returns the sum of the cosines. Each step multiplies the width by
       the cosine of its angle, so return the product of the cosines
     width: your function returns the standard deviation after all steps. Divide it by
-      sigma to obtain the fraction
+      sigma to obtain the fraction that the steps keep
     lengths-kept: your code divides each scalar product by the square of the first
       vector's norm. Divide it by the product of the norms of both vectors instead,
       which gives the cosine

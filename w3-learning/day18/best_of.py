@@ -35,7 +35,7 @@ def _(rng):
 @row.wrongs
 def _(p, n, k):
     """mean: your function returns the expected success rate of a single policy. Return
-      the expected success rate of the best of k policies, which is larger for k > 1
+      the expected success rate of the best of k policies instead
     any-success: your function returns the probability of at least one success on k
       starts. Return the expected value of the largest of the k numbers of successes,
       divided by n

@@ -116,8 +116,8 @@ def _(win, lose, n, level):
     level-fixed: your code compares the p-value with 0.05. Compare the p-value with the
       argument `level` instead
     equal-numbers: your code assigns the same probability to every possible number of
-      differing starts. The number of differing starts has a binomial distribution with
-      n trials
+      differing starts. This number has a binomial distribution with n trials and the
+      probability win + lose
     chosen-from-all: your code chooses the losses from all n starts. Choose the losses
       from the starts that are not wins, because a start cannot be both a win and a loss
     """
