@@ -83,6 +83,18 @@ class Episodes(NamedTuple):
         """Return which pucks end at home, (n,), True or False."""
         return np.linalg.norm(self.observation[:, -1, 2:], axis=1) < HOME
 
+    def moment(self, seconds: float) -> tuple[Array, int]:
+        """Return the first episode's observation at a time, (4,), and its step.
+
+        The observation is interpolated linearly between two steps; after the end it
+        is the last one.
+        """
+        steps = self.action.shape[1]
+        at = min(seconds / TICK, steps)
+        k = min(int(at), steps - 1)
+        now, then = self.observation[0, k : k + 2]
+        return now + (at - k) * (then - now), k
+
 
 def scene(
     mass: float = MASS, damping: float = DAMPING, step: float = STEP

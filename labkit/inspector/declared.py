@@ -349,3 +349,17 @@ class Declared(Tab):
         self.verdict.content = ""
         for piece, made in self._shown:
             piece.empty(made)
+
+
+class Played(Declared):
+    """A tab whose answer is a motion: it plays when the answer has come."""
+
+    def begin(self) -> None:
+        """Wait for the answer; `show` calls `play`."""
+
+    def play(self) -> None:
+        """Draw the start of the answer, and play on unless the answer is missing."""
+        self.frame(0.0)
+        self.loop.stop()
+        if not self.emptied:
+            self.loop.start()

@@ -79,7 +79,7 @@ def trained(copycat: bool) -> Trained:
     return Trained(net, x, actions)
 
 
-class Clone(ui.Declared):
+class Clone(ui.Played):
     """A network pushes, and shows how far it is from its data."""
 
     title = "Clone"
@@ -161,24 +161,14 @@ class Clone(ui.Declared):
         known = cloning.normalise(known, scaler)[::4]
         far = cloning.nearest_distance(known, yours.inputs)
         self.plot.show(day15_mujoco.TICK * np.arange(len(far)), [far])
-        self.frame(0.0)
-        self.loop.stop()
-        if not self.emptied:
-            self.loop.start()
-
-    def begin(self) -> None:
-        """Start once the answers are there; `show` plays them."""
+        self.play()
 
     def frame(self, seconds: float) -> bool:
-        steps = len(self.seen.inputs)
-        at = min(seconds / day15_mujoco.TICK, steps)
-        k = min(int(at), steps - 1)
-        now, then = self.seen.run.observation[0, k : k + 2]
-        one = now + (at - k) * (then - now)
+        one, k = self.seen.run.moment(seconds)
         self.pusher.position = np.array([*one[:2], 1.5 * UP])
         self.puck.position = np.array([*one[2:], UP / 2])
         self.image.image = self.activations(self.seen.inputs[k])
-        return at < steps
+        return seconds < day15_mujoco.TICK * len(self.seen.inputs)
 
     def activations(self, z: Array) -> Array:
         """Return a picture of both hidden layers for an input, bytes."""

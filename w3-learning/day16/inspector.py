@@ -49,7 +49,7 @@ def latent() -> Any:
     return LAB.Latent(silent, LAB.Data(episodes, LAB.K))
 
 
-class Plans(ui.Declared):
+class Plans(ui.Played):
     """A chunk as beads, which z swings from one side of the puck to the other."""
 
     title = "Plans"
@@ -100,20 +100,10 @@ class Plans(ui.Declared):
     def show(self, yours: Seen, right: Seen) -> None:
         self.seen = yours
         self.best.points = joined(above(right.run.observation[0, :, :2]))
-        self.frame(0.0)
-        self.loop.stop()
-        if not self.emptied:
-            self.loop.start()
-
-    def begin(self) -> None:
-        """Start once the answers are there; `show` plays them."""
+        self.play()
 
     def frame(self, seconds: float) -> bool:
-        steps = len(self.seen.plans)
-        at = min(seconds / day15_mujoco.TICK, steps)
-        k = min(int(at), steps - 1)
-        now, then = self.seen.run.observation[0, k : k + 2]
-        one = now + (at - k) * (then - now)
+        one, k = self.seen.run.moment(seconds)
         self.pusher.position = np.array([*one[:2], UP])
         self.puck.position = np.array([*one[2:], UP])
         self.beads.points = joined(above(self.seen.plans[k]))
@@ -121,7 +111,7 @@ class Plans(ui.Declared):
             joined(above(self.seen.plans[i])) for i in range(max(0, k - OLD), max(k, 1))
         ]
         self.old.points = np.concatenate(older)
-        return at < steps
+        return seconds < day15_mujoco.TICK * len(self.seen.plans)
 
     def says(self, yours: Seen, right: Seen):
         yield f"Your z is {yours.z:.2f}.", "reparameterise"

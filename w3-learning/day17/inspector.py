@@ -67,7 +67,7 @@ def noise_in(z: Array, x: Array, abar: float) -> Array:
     return planner().noise(z, x, abar)
 
 
-class Denoising(ui.Declared):
+class Denoising(ui.Played):
     """Noise becomes plans to both sides of a puck."""
 
     title = "Denoising"
@@ -113,13 +113,7 @@ class Denoising(ui.Declared):
         self.puck.position = np.array([*self.where(self), UP])
         self.best.points = segments(right.paths[-1])
         self.plot.show(np.arange(len(yours.abars)), [yours.abars])
-        self.frame(0.0)
-        self.loop.stop()
-        if not self.emptied:
-            self.loop.start()
-
-    def begin(self) -> None:
-        """Start once the answers are there; `show` plays them."""
+        self.play()
 
     def frame(self, seconds: float) -> bool:
         last = len(self.drawn.stages) - 1
