@@ -109,7 +109,7 @@ class InProcess:
         changed = [
             i
             for i, (arg, was) in enumerate(zip(args, question.args, strict=True))
-            if isinstance(was, np.ndarray) and not _same(arg, was)
+            if not _same(arg, was)
         ]
         shares, handed = _shares(value, kept, args)
         names = list(inspect.signature(function).parameters) if changed + handed else ()
@@ -125,12 +125,27 @@ class InProcess:
             return arg.model
         if isinstance(arg, Path):
             return list(arg.pairs)
+        if isinstance(arg, tuple | list):  # plain ones, as they come in the sandbox
+            form = tuple if isinstance(arg, tuple) else list
+            return form(map(self._argument, arg))
         return arg.copy() if isinstance(arg, np.ndarray) else arg
 
 
 def _same(arg, was):
-    """Return whether an array is what it was, NaN where it had one."""
-    return np.array_equal(arg, was, equal_nan=was.dtype.kind == "f")
+    """Return whether the arrays of an argument are what they were, NaN included."""
+    now, before = _arrays_of(arg), _arrays_of(was)
+    pairs = zip(now, before, strict=False)
+    return len(now) == len(before) and all(
+        np.array_equal(a, b, equal_nan=b.dtype.kind == "f") for a, b in pairs
+    )
+
+
+def _arrays_of(value):
+    """Return the arrays that a value is or holds."""
+    if isinstance(value, np.ndarray):
+        return [value]
+    some = value if isinstance(value, tuple | list) else ()
+    return list(itertools.chain.from_iterable(map(_arrays_of, some)))
 
 
 @functools.cache

@@ -251,7 +251,7 @@ class TestATuple:
             (
                 lambda i, point, free: (float(i), (point, free)),
                 "not-an-index",
-                "The place: Your function returns",
+                "The place: your function returns",
             ),
             (
                 lambda i, point, free: (i, point, free),

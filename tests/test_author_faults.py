@@ -4,10 +4,12 @@ import re
 import shutil
 
 import pytest
+from toyrows import row_of
 
 from conftest import ROOT, SKIPPED, kit_folders, run_copy
-from labkit.author import display, docstring, hints
+from labkit.author import display, docstring, hints, stops
 from labkit.author.renumber import OUTPUTS, renumbered
+from labkit.judge import Scalar
 from labkit.judge.row import rows_of
 from labkit.lesson.day import all_days, find_day
 
@@ -132,6 +134,44 @@ def test_the_kits_own_days_have_none_of_these(day):
     assert [*hints.faults_of(day)] == []
     for row in rows_of(day).values():
         assert [*docstring.faults_of(row), *docstring.capitals(row)] == []
+        assert [*stops.faults_of(row)] == []
+
+
+class TestAMistakeThatStops:
+    """An entry that stops where its author did not mean it is told with its line."""
+
+    @staticmethod
+    def row(wrongs=None, wrong=None):
+        row = row_of(
+            Scalar(), lambda x: 2.0 * x, lambda rng: [(float(x),) for x in range(6)]
+        )
+        if wrongs:
+            wrongs.__doc__ = "one: your code adds 1\n    two: your code divides by x"
+            row.wrongs(wrongs)
+        if wrong:
+            row.wrong("three", "your code does something")(wrong)
+        return list(stops.faults_of(row))
+
+    def test_takes_all_of_its_table_along(self):
+        (told,) = self.row(lambda x: {"one": x + 1.0, "two": 2.0 / x})
+        assert "its @row.wrongs stops with ZeroDivisionError: float division" in told
+        assert "test_author_faults.py, line " in told
+        assert "so none of its 2 mistakes has an answer to that question" in told
+
+    def test_alone_is_none_where_it_is_a_function_of_its_own(self):
+        assert self.row(lambda x: {"one": x + 1.0, "two": lambda: 2.0 / x}) == []
+        assert self.row(wrong=lambda x: 2.0 / x) == []
+
+    def test_is_one_where_a_name_is_missing(self):
+        (told,) = self.row(lambda x: {"one": x, "two": lambda: 1 if x else spam})  # noqa: F821
+        assert "its mistake two stops with NameError: name 'spam'" in told
+        (told,) = self.row(lambda x: {"one": x, "too": x})
+        assert "stops with KeyError" in told
+
+    def test_is_one_where_it_has_no_answer_at_all(self):
+        (told,) = self.row(wrong=lambda x: 2.0 / (x - x))
+        assert "three stops with ZeroDivisionError" in told
+        assert told.endswith(", and so at every other question")
 
 
 @pytest.mark.parametrize(

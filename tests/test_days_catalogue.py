@@ -4,6 +4,7 @@ All of a day that has changed, and a sample of another one: `whole.py`.
 """
 
 import itertools
+import re
 
 import inprocess
 import pytest
@@ -15,6 +16,9 @@ from conftest import days
 pytestmark = pytest.mark.kit
 
 DAYS = days()
+# A word with a capital letter after a colon, and not the text of an exception.
+CAPITAL = re.compile(r": (?!True |False |None )[A-Z][a-z]+ [a-z]")
+CODE = re.compile(r"`[^`]*`")
 
 
 def functions(day):
@@ -53,6 +57,8 @@ def test_a_file_is_told_what_the_catalogue_says(day, some):
             if not (one.is_told(verdict) and verdict.status in fine):
                 said = verdict.mistake or verdict.status
                 differ.append(f"{one.name} ({task}): {said}. {verdict.message}")
+            if CAPITAL.search(CODE.sub("", verdict.message)):
+                differ.append(f"{one.name} ({task}): a capital. {verdict.message}")
     assert not differ, "\n".join(differ)
 
 

@@ -135,6 +135,23 @@ def test_a_tuples_parts_are_judged_apart_and_named():
     assert "expected 2 results" in told(ask, np.array(1.0)).message
 
 
+@pytest.mark.parametrize(
+    ("second", "says"),
+    [
+        (np.zeros(2), "The angle: your function returns an array of shape (2,)"),
+        ("left", "The angle: your function returns 'left'"),
+        (None, "The angle: your function returns None for 6 inputs"),
+    ],
+)
+def test_a_sentence_goes_on_in_small_letters_after_its_results_name(second, says):
+    ask = Ask(
+        lambda rng: [(x,) for x in rng.uniform(1, 2, 6)],
+        (Scalar(called="the length"), Scalar(called="the angle", none="no angle")),
+        truth=lambda x: (x, 2.0 * x),
+    )
+    assert told(ask, (1.0, second)).message.startswith(says)
+
+
 def test_accepting_needs_no_truth_and_says_why_not():
     ask = Ask(
         lambda rng: [(x,) for x in rng.uniform(1, 2, 6)],

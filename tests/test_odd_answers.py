@@ -43,7 +43,10 @@ class TestAMistakeThatStopsOrReshapes:
         verdict = told(self.row(), function)
         assert verdict.mistake == "transposed"
         assert "stops with an error in 2 of 5 calls." in verdict.message
-        assert "multiplied`. The other answers are wrong, too." in verdict.message
+        assert (
+            "multiplied`. In the other 3 calls, all results are wrong."
+            in verdict.message
+        )
         assert "W is (k, m)" in verdict.message
 
     def test_is_named_where_it_is_right_at_all_others(self):
@@ -102,6 +105,88 @@ class TestAMistakeThatStopsOrReshapes:
         ]
         assert not any(alike(a[1], b[1]) for a, b in itertools.combinations(found, 2))
         assert alike(found[0][1], found[0][1])
+
+
+class TestEntriesInAnotherOrder:
+    """The entries are the right ones, in all calls, and only their places are wrong."""
+
+    @staticmethod
+    def said(change, kind=None, truth=lambda X: 2.0 * X):
+        def inputs(rng):
+            return [(rng.numbers(-9, 9, n, k),) for n, k in ((2, 3), (3, 3), (1, 4))]
+
+        row = row_of(kind or Matrix((None, None)), truth, inputs)
+        return told(row, lambda X: change(row.truth(X))).message
+
+    @pytest.mark.parametrize(
+        ("change", "says"),
+        [
+            (
+                np.transpose,
+                "calls. All entries are right, but the result is transposed.",
+            ),
+            (
+                lambda Y: Y.reshape(Y.shape[::-1]),
+                "All entries and their order are right. Only the shape is wrong.",
+            ),
+            (
+                lambda Y: Y.ravel(),
+                "All entries and their order are right. Only the shape is wrong.",
+            ),
+            (
+                lambda Y: np.sort(Y, axis=None).reshape(Y.shape[::-1]),
+                "All entries are right, but their order is wrong in the result.",
+            ),
+        ],
+    )
+    def test_are_told_beside_the_wrong_shape(self, change, says):
+        assert says in self.said(change)
+
+    def test_are_told_of_the_result_that_has_them(self):
+        kind = Scalar(called="the sum"), Matrix((None, None), called="the product")
+        says = self.said(lambda Y: (Y[0], Y[1].T), kind, lambda X: (np.sum(X), 2.0 * X))
+        assert "All entries are right, but the product is transposed." in says
+
+    def test_are_not_told_where_one_call_has_others(self):
+        says = self.said(lambda Y: Y.T + (len(Y) == 1))
+        assert "of the wrong shape" in says
+        assert "entries" not in says
+        assert "entries" not in self.said(lambda Y: 0.0 * Y.T, truth=lambda X: 0.0 * X)
+
+    @pytest.mark.parametrize(
+        ("truth", "is_told"), [(lambda X: 2.0 * X, True), (np.sign, False)]
+    )
+    def test_are_told_of_the_right_shape_and_of_wrong_calls_alone(self, truth, is_told):
+        def inputs(rng):
+            return [(rng.numbers(-9, 9, n, 2),) for n in (1, 3, 4, 3)]
+
+        row = row_of(Matrix((None, 2)), truth, inputs)
+        says = told(row, lambda X: truth(X)[np.argsort(X[:, 0])][::-1]).message
+        known = "In every wrong call, the numbers are right, but their order is wrong."
+        assert (known in says) == is_told
+
+
+@pytest.mark.parametrize(
+    ("stops", "wrong", "says"),
+    [
+        (4, {1, 2}, "In the other 2 calls, all results are wrong."),
+        (3, {2, 3}, "In the other 3 calls, 2 results are wrong."),
+        (3, {3}, "In the other 3 calls, 1 result is wrong."),
+        (5, {1}, "In the other call, the result is wrong."),
+    ],
+)
+def test_the_calls_without_an_error_are_counted_by_themselves(stops, wrong, says):
+    inputs = [(float(x),) for x in range(1, 7)]
+    row = row_of(Scalar(), lambda x: 2.0 * x, lambda rng: inputs)
+
+    def function(x):
+        if x > 6 - stops:
+            raise ZeroDivisionError
+        return 2.0 * x + (x in wrong)
+
+    message = told(row, function).message
+    assert message.startswith("Your function stops with an error in")
+    assert f"`ZeroDivisionError`. {says}" in message
 
 
 class TestATolerance:

@@ -263,6 +263,13 @@ def test_who_draws_random_numbers_is_told_that_they_are_an_argument():
     assert judged_replies(ask, replies, draws).mistake == "draws-itself"
     lab = "def f(x):\n    return x\n\n\ndef main():\n    np.random.normal()\n"
     assert judged_replies(ask, replies, lab).mistake == "kept-between-calls"
+    for text in ('"random numbers"', "return x  # rng"):
+        said = judged_replies(ask, replies, f"def f(x):\n    {text}\n")
+        assert said.mistake == "kept-between-calls"
+    given = "def f(noise):\n    return noise + np.random.normal(), rng\n"
+    found = judged_replies(ask, replies, given)
+    assert found.mistake == "draws-itself"
+    assert "Use only the random numbers in the argument `noise`, so" in found.message
 
 
 def test_a_mask_is_inverted_only_where_it_is_so_at_fresh_inputs_too():

@@ -73,3 +73,46 @@ def test_one_result_that_a_mistake_only_nearly_gives_is_not_told_by_it():
     near = judged(row, lambda x, d: (1.001 * x.sum(), np.max(d) ** 3))
     assert exact.mistake == "summed+other"
     assert "summed" not in near.message
+
+
+@pytest.mark.parametrize(
+    ("function", "slug", "says"),
+    [
+        (
+            lambda x, d: (x.sum(), np.max(d) ** 3),
+            "summed+other",
+            "One mistake explains the mean: the numbers are summed up. The square is "
+            "wrong in all 4 calls, too.",
+        ),
+        (
+            lambda x, d: (x.sum(), np.mean(d**2)),
+            "summed",
+            "One mistake explains the mean: the numbers are summed up. The square is "
+            "right.",
+        ),
+        (
+            lambda x, d: (x.sum(), np.mean(d) ** 2),
+            "summed+squared-mean",
+            "One mistake explains the mean: the numbers are summed up. Another mistake "
+            "explains the square: the mean is squared.",
+        ),
+        (lambda x, d: (x.sum() + (len(x) == 5), np.mean(d**2)), "off", "The square is"),
+    ],
+)
+def test_a_mistake_in_one_result_says_what_is_with_the_other(function, slug, says):
+    kind = Scalar(called="the mean"), Scalar(called="the square")
+    row = row_of(kind, lambda x, d: (x.mean(), np.mean(d**2)), products)
+
+    @row.wrong
+    def summed(x, d):
+        """the numbers are summed up"""
+        return x.sum(), np.sum(d**2)
+
+    @row.wrong
+    def squared_mean(x, d):
+        """the mean is squared"""
+        return x.mean() + 1.0, np.mean(d) ** 2
+
+    verdict = judged(row, function)
+    assert verdict.mistake == slug
+    assert verdict.message.startswith(says)

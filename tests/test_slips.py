@@ -119,8 +119,50 @@ def test_a_search_ends_after_a_count_of_lines_that_no_clock_changes(monkeypatch)
 def test_an_outer_product_in_a_loop_does_not_fill_the_memory():
     text = "for _ in range(9):\n        x = np.outer(x, x)"
     one = body(f"def f(x):\n    {text}\n    return x\n")
-    with pytest.raises(ValueError, match="too large"):
+    with pytest.raises(limits.TooLongError):
         one.compiled()(np.ones(10))
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        "np.zeros(10 * n)",
+        "np.ones((n, 10))",
+        "np.empty(shape=10 * n)",
+        "np.full((10, n), 1.0)",
+        "np.arange(10 * n)",
+        "np.arange(0, n, 0.1)",
+        "np.linspace(0.0, 1.0, 10 * n)",
+        "np.linspace(0.0, 1.0, num=10 * n)",
+        "np.tile(np.ones(10), n)",
+        "np.tile(np.ones(2), (5, n))",
+        "np.repeat(np.ones(10), n)",
+        "np.eye(10, n)",
+        "np.eye(n // 10)",
+        "np.diag(np.ones(n // 10))",
+        "np.bincount([10 * n])",
+        "np.outer(np.ones(n // 10), np.ones(100))",
+    ],
+)
+def test_a_mutant_makes_no_array_whose_size_is_a_changed_number(made):
+    one = body(f"def f(n):\n    return {made}\n")
+    one.calibrate([100])
+    code = one.compiled()
+    assert np.size(code(900)) >= 100  # the right function may make as many again
+    with pytest.raises(limits.TooLongError):
+        code(2_000_000)
+
+
+def test_what_a_right_function_makes_allows_its_mutants_some_times_as_much():
+    one = body("def f(n):\n    return np.zeros(n)\n")
+    one.calibrate([50_000])
+    assert one.compiled()(20 * 50_000).size == 1_000_000
+    one.calibrate([10])
+    assert one.compiled()(10_000).size == 10_000
+    with pytest.raises(limits.TooLongError):
+        one.compiled()(10_001)
+    one.calibrate([50_000])  # it is remembered
+    assert one.compiled()(10_001).size == 10_001
 
 
 def test_an_array_that_doubles_in_a_loop_does_not_fill_the_memory():

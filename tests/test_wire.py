@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from labkit.base.exchange import Exchange, Question
+from labkit.judge.answers import grouped
 from labkit.sandbox.inside import wire
 
 ROWS = [np.arange(3.0), np.ones(3)]
@@ -77,6 +78,27 @@ def test_the_sandbox_and_the_catalogues_tests_bring_the_same(ask, tmp_path):
     inprocess.InProcess().run(file, exchanges, {})
     for exchange, value in zip(exchanges, SENT.values(), strict=True):
         assert same(exchange.reply.value, value)
+
+
+@pytest.mark.kit
+def test_arrays_in_a_tuple_are_each_calls_own_and_a_change_of_one_is_told(
+    ask, tmp_path
+):
+    code = """
+def f(some):
+    some[0][0] += 1.0
+    return some[0].copy()
+"""
+    question = Question("1.1", "f", grouped([(np.zeros(2), np.ones(2))]))
+    file = tmp_path / "script.py"
+    file.write_text(code)
+    exchange = Exchange(question)
+    inprocess.InProcess().run(file, [exchange], {})
+    (reply,) = ask(code, question)
+    for one in (reply, exchange.reply):
+        assert one.value.tolist() == one.again.tolist() == [1.0, 0.0]
+        assert one.changed == ("some",)
+    assert question.args[0][0].tolist() == [0.0, 0.0]
 
 
 @pytest.mark.kit

@@ -15,7 +15,7 @@ import sys
 import time
 from collections.abc import Iterator
 
-from labkit.author import display, docstring, files, ranges, student, week
+from labkit.author import display, docstring, files, ranges, stops, student, week
 from labkit.base import cli, processes
 from labkit.base.text import count
 from labkit.commands import docs
@@ -125,6 +125,8 @@ def docstrings(day: Day) -> Iterator[str]:
             yield f"{shown(day.source)}, {name}: {fault}"
         for fault in docstring.capitals(row):
             yield f"{shown(day.own / name)}.py: {fault}"
+        for fault in stops.faults_of(row):
+            yield f"{shown(day.own / name)}.py: {fault}"
         if typed := docstring.unlike_its_questions(row):
             NOTES.append(
                 f"{shown(day.source)}, {name}: its docstring has {', '.join(typed)}, "
@@ -222,6 +224,7 @@ def one_task(day: Day, task: Task) -> int:
         code, lines = run(day, "tests/catalogue.py", str(day.number), f"{name}:")
         found += lines[:-1] if code else []
         found += [*docstring.faults_of(rows[name]), *docstring.capitals(rows[name])]
+        found += stops.faults_of(rows[name])
         print(f"{cli.verdict(not code)}  {name}: {lines[-1] if lines else 'nothing'}")
     told = list(student.check(day, task.id))
     print(f"{cli.verdict(not told)}  make check, on the lab's own file")

@@ -173,8 +173,8 @@ def _of_arrays(argument: Any) -> bool:
 
 def own(argument: Any) -> Any:
     """Return a copy of an array or a number; a model or a path is as it is."""
-    if isinstance(argument, Several):
-        return Several(map(own, argument))
+    if _of_arrays(argument) or isinstance(argument, Several):
+        return type(argument)(map(own, argument))
     plain = isinstance(argument, np.ndarray | np.generic)
     return np.copy(argument)[()] if plain else argument
 
@@ -183,7 +183,7 @@ def content(argument: Any) -> Any:
     """Return what two arguments share that are the same, to look it up."""
     if isinstance(argument, np.ndarray):
         return argument.shape, argument.dtype, argument.tobytes()
-    if isinstance(argument, Several):
+    if isinstance(argument, tuple):
         return tuple(map(content, argument))
     return repr(argument) if isinstance(argument, list) else argument
 

@@ -4,13 +4,14 @@ It is claimed where made on purpose it explains a result of several, or the answ
 some calls, which are counted.
 """
 
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
-from labkit.judge.answers import Parts, capitalised, gaps
+from labkit.judge.answers import Parts, capitalised, gaps, in_calls, listed
 from labkit.judge.hypothesis import equals
-from labkit.judge.matcher import Matcher
+from labkit.judge.matcher import Calls, Matcher
 from labkit.judge.mistake import Finding, Mistake
 from labkit.judge.pairs import of_its_own_first
 
@@ -19,37 +20,80 @@ SOME = 3  # calls whose numbers it has to give, at least, and half of the wrong 
 
 
 def by_results(m: Matcher) -> Finding | None:
-    """Return a named mistake for each wrong result of a function that returns several.
+    """Return the named mistakes that give wrong results of a function of several.
 
-    One that has none of its own is said to be wrong besides.
+    What is with the other results is said besides: a mistake of one may be about all.
     """
-    kinds, wrong = m.ask.kinds, _wrong_results(m)
-    if len(wrong) < 2 or m.whole:
+    wrong = _wrong_results(m)
+    if len(m.S) < 2 or m.whole or not wrong:
         return None
     told: dict[int, Mistake] = {}
     for one in of_its_own_first(m):
-        answer = m.main.answer(one.redo, m.furthest)
-        left = [j for j in wrong if j not in told and len(answer) == len(m.S)]
-        mine = tuple(s[m.furthest] for s in m.S)
-        some = [
-            j for j in left if m.main.difference.fits(m.furthest, _put(mine, answer, j))
-        ]
-        every = m.main.answers(one.redo) if some else ()
-        for j in some if every else ():
-            again = _put(m.S, every, j)
-            differs = gaps([kinds[j]], (every[j],), (m.T[j],)).max() > m.ask.near
-            exact = equals([kinds[j]], (m.S[j],), (every[j],))  # one result says little
-            if differs and exact and m.main.difference.explained(again).all():
-                told[j] = one
+        left = [j for j in wrong if j not in told]
+        told |= dict.fromkeys(_given_by(m, one, left), one)
     if not told:
         return None
-    says = [
-        f"{capitalised(kinds[j].called or f'result {j + 1}')}: "
-        + (as_sentence(told[j].says) if j in told else "this result is wrong, too.")
-        for j in sorted(wrong, key=lambda j: j not in told)
-    ]
+    says = [*_each_mistake(m, told), _of_the_others(m, told)]
     slug = "+".join(dict.fromkeys(one.slug for one in told.values()))
-    return Finding(slug + "+other" * (len(told) < len(wrong)), " ".join(says))
+    return Finding(
+        slug + "+other" * (len(told) < len(wrong)), " ".join(filter(None, says))
+    )
+
+
+def _given_by(m: Matcher, one: Mistake, left: list[int]) -> list[int]:
+    """Return which of some wrong results a mistake gives in every call."""
+    answer = m.main.answer(one.redo, m.furthest)
+    if len(answer) != len(m.S):
+        return []
+    mine = tuple(s[m.furthest] for s in m.S)
+    fits = m.main.difference.fits
+    some = [j for j in left if fits(m.furthest, _put(mine, answer, j))]
+    for calls in filter(None, (m.main, m.fresh)) if some else ():
+        every = calls.answers(one.redo)
+        some = [j for j in some if every and _gives(calls, every, j)]
+    return some
+
+
+def _gives(calls: Calls, every: Parts, j: int) -> bool:
+    """Return whether answers have the j-th result of all calls, and a wrong one."""
+    kind, near = calls.ask.kinds[j], calls.ask.near
+    differs = gaps([kind], (every[j],), (calls.T[j],)).max() > near
+    exact = equals([kind], (calls.S[j],), (every[j],))  # one result says little
+    again = _put(calls.S, every, j)
+    return differs and exact and bool(calls.difference.explained(again).all())
+
+
+def _each_mistake(m: Matcher, told: Mapping[int, Mistake]) -> Iterator[str]:
+    """Yield what each mistake explains: "One mistake explains the mask: your ..."."""
+    first = "One mistake"
+    for one in dict.fromkeys(told.values()):
+        names = [_name(m, j) for j in sorted(told) if told[j] is one]
+        yield f"{first} explains {listed(names)}: {as_sentence(one.says)}"
+        first = "Another mistake"
+
+
+def _of_the_others(m: Matcher, told: Mapping[int, Mistake]) -> str:
+    """Return which other results are right, and which are wrong, too."""
+    sets = [one for one in (m.main, m.fresh) if one]
+    off = {
+        j: [m.ask.gaps_of(j, one.S[j], one.T[j]) > m.ask.near for one in sets]
+        for j in range(len(m.S))
+        if j not in told
+    }
+    right = [_name(m, j) for j in off if not np.any(np.concatenate(off[j]))]
+    says = []
+    if right:
+        verb = "is" if len(right) == 1 else "are"
+        says.append(f"{capitalised(listed(right))} {verb} right.")
+    for j in off:
+        if n := int(np.sum(off[j][0])):
+            often = in_calls(n, len(off[j][0]))
+            says.append(f"{capitalised(_name(m, j))} is wrong {often}, too.")
+    return " ".join(says)
+
+
+def _name(m: Matcher, j: int) -> str:
+    return m.ask.kinds[j].called or f"result {j + 1}"
 
 
 def _wrong_results(m: Matcher) -> list[int]:

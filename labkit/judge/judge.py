@@ -120,7 +120,7 @@ def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
     S = replies_read.read(asked.main, asked.ask, source)
     if isinstance(S, Finding):
         if S.slug == "shape":
-            S = attempt(odd_answers.named, asked, S, otherwise=S)
+            S = attempt(_of_odd_shapes, asked, S, otherwise=S)
         return Verdict("wrong", *_beside(S, asked, names))
     if other := attempt(_by_another_method, asked, S, names):
         return Verdict("wrong", other.slug, other.message, valid=True)
@@ -141,7 +141,7 @@ def _by_another_method(asked: Asked, S: Parts, names: Sequence[str]) -> Finding 
     named: Finding | None
     if sizes := replies_read.of_another_size(asked):
         named = _of_another_size(asked, S, names, sizes)
-        named = None if named is sizes else named
+        named = None if named.slug == sizes.slug else named
     else:
         T = right_answers(ask, asked.main)
         if ask.gaps(S, T).max() <= ask.near:
@@ -186,12 +186,18 @@ def _of_another_size(
     asked: Asked, S: Parts, names: Sequence[str], found: Finding
 ) -> Finding:
     """Return what answers of wrong sizes come from; the row may know more of them."""
-    named = attempt(odd_answers.named, asked, found, otherwise=found)
+    named = attempt(_of_odd_shapes, asked, found, otherwise=found)
     telling = asked.ask.unnamed and replies_read.of_another_length(asked)
     if named is not found or not asked.ask.unnamed or not telling:
         return named
     T = right_answers(asked.ask, asked.main)
     return asked.ask.unnamed(_case(asked, S, T, names)) or found
+
+
+def _of_odd_shapes(asked: Asked, found: Finding) -> Finding:
+    """Return what arrays of wrong shapes come from, or what was found."""
+    named = odd_answers.named(asked, found)
+    return odd_answers.in_another_order(asked, found) if named is found else named
 
 
 def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
@@ -206,7 +212,7 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     rest = replace(asked, main=good, probes=[])
     if sizes := replies_read.of_another_size(rest):
         other = _of_another_size(rest, S, names, sizes)
-        also = f"Other answers are wrong, too. {other.message}"
+        also = f"In other calls, the result is wrong. {other.message}"
         return Finding(found.slug, f"{found.message} {also}")
     T = right_answers(asked.ask, good)
     case = replace(_case(rest, S, T, names), further=attempt(_further, asked))
@@ -222,11 +228,18 @@ def _both(
     # One answer alone may be that of many mistakes.
     named = attempt(diagnose, case, S, T, effort) if wrong.sum() > 1 else None
     other = named or what_is_wrong(case, S, T, counted=False)
-    verb = "is" if wrong.sum() == 1 else "are"
-    some = f"Of the {len(wrong)} other answers, {wrong.sum()} {verb} wrong, too."
-    also = "The other answers are wrong, too." if wrong.all() else some
-    says = f"{found.message} {also} {other.message}"
+    says = f"{found.message} {_in_the_others(wrong)} {other.message}"
     return Finding(named.slug if named else found.slug, says)
+
+
+def _in_the_others(wrong: Array) -> str:
+    """Return how many results are wrong in the calls that have one."""
+    if len(wrong) == 1:
+        return "In the other call, the result is wrong."
+    many = count(int(wrong.sum()), "result")
+    verb = "is" if wrong.sum() == 1 else "are"
+    some = "all results" if wrong.all() else many
+    return f"In the other {len(wrong)} calls, {some} {verb} wrong."
 
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
@@ -486,9 +499,9 @@ def _none_or_not(m: Matcher) -> Finding | None:
             many = count(made.sum(), "input")
             says += [f"an answer for {many} where None is expected ({kind.none})"]
         where = _first(lost | made, case.given, "first for")
-        several = len(S) > 1 and kind.called
-        called = f"{kind.called}: your function" if several else "Your function"
-        return Finding("none-or-not", f"{called} returns {', and '.join(says)}{where}.")
+        told_all = f"Your function returns {', and '.join(says)}{where}."
+        called = kind.called if len(S) > 1 else ""
+        return Finding("none-or-not", of_result(told_all, called))
     return None
 
 

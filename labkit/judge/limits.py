@@ -3,7 +3,8 @@
 Loops count their steps and look at the clock, which needs no signal: a search runs in
 threads and on Windows as well. LAPACK may not return from numbers that are not finite,
 so these are refused before. What a search may cost is counted in lines of Python, no
-seconds: the same mistake gets the same name on a slow machine.
+seconds: the same mistake gets the same name on a slow machine. An array whose size is a
+changed number is refused before it is made.
 """
 
 import ast
@@ -18,13 +19,15 @@ from typing import Any
 
 import numpy as np
 
+Code = Callable[..., Any]
 STEP = "_step_"  # the name that a limited body calls
 MOST = 1_000_000  # steps of a call of a right function
 # A mutant may take so many times the steps and the time of the right function.
 LEAST, TIMES = 100, 20
 SECONDS = 0.02  # at least
 LOOKS = 16  # steps, or hypotheses, after which the clock is looked at: it is slow
-HUGE = 100_000  # numbers of an outer product
+HUGE = 10_000  # numbers of an array that a mutant may make, or ...
+MANY = 1_000_000  # that a right function may make
 GROWS = 4  # steps after which variables are looked at: arrays may double at each
 LARGE = 1_000_000  # numbers of an array in a loop
 GUARDED = ("lstsq", "svd", "eigh", "eigvalsh", "eig", "eigvals", "pinv", "matrix_rank")
@@ -61,7 +64,7 @@ class TooLongError(Exception):
     """A mutant takes more steps than any right function."""
 
 
-Measured = tuple[int, float, int]
+Measured = tuple[int, float, int, int]
 
 
 @dataclass
@@ -74,16 +77,23 @@ class Steps:
     ends: float = 0.0  # when a call has taken too long
     usual: int = 0  # steps of the right function
     lines: int = 0  # of Python, that it executes
+    largest: int = 0  # numbers of the largest array that it makes
+    room: int = MANY  # numbers of an array that may be made
 
     @property
     def measured(self) -> Measured:
-        """What a call of the right function takes: steps, seconds, lines."""
-        return self.usual, self.seconds, self.lines
+        """What a call of the right function takes: steps, seconds, lines, numbers."""
+        return self.usual, self.seconds, self.lines, self.largest
 
     @measured.setter
     def measured(self, measured: Measured) -> None:
-        self.usual, self.seconds, self.lines = measured
+        self.usual, self.seconds, self.lines, self.largest = measured
+        self._allow()
+
+    def _allow(self) -> None:
+        """Allow a mutant some times what the right function takes."""
         self.most = self.left = LEAST + TIMES * self.usual
+        self.room = max(HUGE, TIMES * self.largest)
 
     def __call__(self, some: Iterable[Any] = ()) -> Iterator[Any]:
         """Yield some things, and count them."""
@@ -115,6 +125,16 @@ class Steps:
         self.ends = self.ends or now + self.seconds
         return now > self.ends
 
+    def make(self, numbers: float) -> None:
+        """Note that an array is to be made.
+
+        Raises:
+            TooLongError: it is too large; filling it would take seconds.
+        """
+        if numbers > self.room:
+            raise TooLongError
+        self.largest = max(self.largest, int(numbers))
+
     def limiting(self, code: Callable[..., Any]) -> Callable[..., Any]:
         """Return a function whose calls begin to count anew."""
 
@@ -133,12 +153,13 @@ class Steps:
             work: lines that it executes in each step.
         """
         self.most, self.left, began = MOST, MOST, time.process_time()
+        self.largest, self.room = 0, MANY
         with suppress(Exception):  # not all right bodies take what a lab's does
             call()
             self.usual = MOST - self.left
             self.seconds = SECONDS + TIMES * (time.process_time() - began)
         self.lines = work * max(self.usual, 1)
-        self.most = LEAST + TIMES * self.usual
+        self._allow()
 
     @property
     def taken(self) -> int:
@@ -201,26 +222,79 @@ def _guarded(real: Callable[..., Any]) -> Callable[..., Any]:
     return call
 
 
-def _outer(a: Any, b: Any) -> Any:
-    """Return the outer product, unless it is huge: in a loop each is that of the last.
+def _sized(real: Callable[..., Any], size: Code, steps: Steps) -> Code:
+    @wraps(real)
+    def call(*args: Any, **options: Any) -> Any:
+        numbers = 0.0
+        with suppress(Exception):  # the real one says what is wrong with its arguments
+            numbers = float(size(*args, **options))
+        steps.make(numbers)
+        return real(*args, **options)
 
-    Raises:
-        ValueError: it is.
+    return call
+
+
+def _of_shape(shape: Any, *_: Any, **__: Any) -> Any:
+    return np.prod(np.atleast_1d(shape), dtype=float)
+
+
+def _of_range(start: Any, stop: Any = None, step: Any = 1, **_: Any) -> Any:
+    return (start if stop is None else stop - start) / step
+
+
+def _of_steps(start: Any, stop: Any, num: Any = 50, *_: Any, **__: Any) -> Any:
+    return num * np.size(start)
+
+
+def _of_times(a: Any, times: Any, *_: Any, **__: Any) -> Any:
+    return np.size(a) * np.prod(np.atleast_1d(times), dtype=float)
+
+
+def _of_each(a: Any, repeats: Any, *_: Any, **__: Any) -> Any:
+    return np.size(a) * np.max(repeats)
+
+
+def _of_pairs(a: Any, b: Any, *_: Any, **__: Any) -> Any:
+    return np.size(a) * np.size(b)
+
+
+def _of_square(n: Any, m: Any = None, *_: Any, **__: Any) -> Any:
+    return n * (n if m is None else m)
+
+
+def _of_diagonal(v: Any, *_: Any, **__: Any) -> Any:
+    return np.size(v) ** (3 - min(np.ndim(v), 2))
+
+
+def _of_counts(x: Any, weights: Any = None, minlength: Any = 0) -> Any:
+    return max(np.max(x, initial=0) + 1, minlength)
+
+
+# How many numbers a function makes of its arguments.
+SIZES: Mapping[str, Code] = {
+    **dict.fromkeys(("zeros", "ones", "empty", "full", "indices"), _of_shape),
+    **dict.fromkeys(("linspace", "logspace", "geomspace"), _of_steps),
+    **dict.fromkeys(("outer", "kron"), _of_pairs),
+    **dict.fromkeys(("eye", "identity", "tri"), _of_square),
+    **dict.fromkeys(("diag", "diagflat"), _of_diagonal),
+    "arange": _of_range,
+    "tile": _of_times,
+    "repeat": _of_each,
+    "bincount": _of_counts,
+}
+
+
+def numpy(steps: Steps) -> ModuleType:
+    """Return NumPy with a guard before the routines that iterate, or that grow.
+
+    Args:
+        steps: of the function that uses it, which say how large its arrays may be.
     """
-    if np.size(a) * np.size(b) > HUGE:
-        raise ValueError("too large")
-    return np.outer(a, b)
-
-
-def _numpy() -> ModuleType:
-    """Return NumPy with a guard before the routines that iterate, or that grow."""
     linalg = ModuleType("numpy.linalg")
     vars(linalg).update(vars(np.linalg))
     for name in GUARDED:
         setattr(linalg, name, _guarded(getattr(np.linalg, name)))
+    sized = {name: _sized(getattr(np, name), SIZES[name], steps) for name in SIZES}
     guarded = ModuleType("numpy")
-    vars(guarded).update({**vars(np), "linalg": linalg, "outer": _outer})
+    vars(guarded).update({**vars(np), "linalg": linalg, **sized})
     return guarded
-
-
-NUMPY = _numpy()

@@ -126,7 +126,7 @@ class Body:
         for one in (*self.function.args.args, *self.function.args.kwonlyargs):
             one.annotation = None
         self.function.returns = None
-        guarded = {"np": limits.NUMPY} if "np" in self.space else {}
+        guarded = {"np": limits.numpy(self.steps)} if "np" in self.space else {}
         self.space.update(guarded | {limits.STEP: self.steps})
 
     @cached_property

@@ -16,7 +16,13 @@ SINGLE = 5e-6  # what products in float32 may leave at worst
 SINGLE_INSIDE = 1e-6  # and what one float32 in a float64 file leaves
 EXACT = 1e-7  # of an entry: it is the right one, but for its sign or place
 ABOUT = 1e-2  # of its largest entry: an answer is about right
+SMALL = 1e-6  # of the largest entry: one that is nearly 0 has no relative error
 OFTEN = 4  # answers that a rule has to hold for
+DISTINCT = 3  # numbers of an answer whose order says something
+# How near answers are that are about right; the first is the stronger one.
+EACH = " All relative errors are below 1 %."
+LARGEST = " Every error is below 1 % of the largest entry."
+WHY = " Is a constant rounded, or is a part of the formula only an approximation?"
 
 
 def explain(S: Array, T: Array) -> Finding:
@@ -70,6 +76,12 @@ def about_right(S: Array, T: Array) -> bool:
     return bool((difference(S, T) <= ABOUT * size).all())
 
 
+def _each_about_right(S: Array, T: Array) -> bool:
+    """Return whether each entry, (n, m), is less than a hundredth of itself off."""
+    least = SMALL * np.abs(T).max(axis=1, initial=0.0, keepdims=True)
+    return bool((np.abs(S - T) <= ABOUT * np.maximum(np.abs(T), least)).all())
+
+
 def in_common(S: Array, T: Array) -> str:
     """Return what all wrong answers of a function share with the right ones, or ""."""
     if S.shape != T.shape:
@@ -85,10 +97,7 @@ def in_common(S: Array, T: Array) -> str:
     if found := one_rule(S, T, wrong):
         return found
     if about:
-        return (
-            " All relative errors are below 1 %. Is a constant rounded, or is a part "
-            "of the formula only an approximation?"
-        )
+        return (EACH if _each_about_right(S, T) else LARGEST) + WHY
     mixed = np.abs(np.sort(S, axis=1) - np.sort(T, axis=1)) <= tiny.max(
         1, keepdims=True
     )
@@ -98,7 +107,7 @@ def in_common(S: Array, T: Array) -> str:
 
 
 def _in_another_order(S: Array, T: Array, wrong: Array, shape: Sequence[int]) -> str:
-    """Return in which order the right numbers stand; "" of a few matrices.
+    """Return in which order the right numbers stand; "" of too few numbers.
 
     Args:
         S: the student's, (n, m), the right numbers in another order.
@@ -111,9 +120,13 @@ def _in_another_order(S: Array, T: Array, wrong: Array, shape: Sequence[int]) ->
         near = EXACT * np.abs(T).max()
         if np.abs(S - turned)[wrong].max() <= near:
             return " In every wrong call the result is the transpose of the right one."
-    if len(shape) > 2 and not wrong.all():
-        return ""  # an order that is right in some calls is none
-    return " The numbers are right, but their order is wrong."
+    if wrong.all():
+        return " The numbers are right, but their order is wrong."
+    # Few numbers, such as those of a matrix of 0 and 1, are the right ones by chance.
+    telling = [len(set(t.tolist())) >= DISTINCT for t in T[wrong]]
+    if sum(telling) < 2 and len(shape) > 2:
+        return ""
+    return " In every wrong call, the numbers are right, but their order is wrong."
 
 
 def one_rule(S: Array, T: Array, wrong: Array) -> str:

@@ -3,18 +3,23 @@
 Such answers cannot be laid beside the right ones entry by entry, so the mistake is
 made again call by call: it is claimed where it stops in the calls in which the
 student's function stops, with the same exception, and gives the same arrays elsewhere.
+Without a name, such arrays may still hold the right entries in another order.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
+
+import numpy as np
 
 from labkit.base.exchange import Exchange
 from labkit.judge import results
-from labkit.judge.answers import InTurn, Parts, capitalised, matches, parts
+from labkit.judge.answers import InTurn, Parts, capitalised, listed, matches, parts
 from labkit.judge.ask import Ask, Asked, stacked
 from labkit.judge.hypothesis import evidence
 from labkit.judge.mistake import Finding, Mistake
+from robo47.checks import Array
 
+SAME, TRANSPOSED, RESHAPED, MIXED = "same", "transposed", "reshaped", "mixed"
 AGREE = 2  # answers that have to be the same besides what stops
 Answer = Parts | str  # to one question, or the name of the exception
 
@@ -56,6 +61,68 @@ def _first(asked: Asked, mine: Sequence[Answer], found: Finding, how: str) -> Fi
                 says += f"{capitalised(mistake.does(how))}."
                 return Finding(mistake.slug, says)
     return found
+
+
+def in_another_order(asked: Asked, found: Finding) -> Finding:
+    """Return what was found, and that all entries are right where only they moved.
+
+    It is said only if it is so in all calls, the fresh ones as well.
+
+    Args:
+        asked: the questions, with replies that are arrays of other shapes.
+        found: what is said of the shapes.
+    """
+    truth = asked.ask.truth
+    if not isinstance(truth, InTurn):
+        return found
+    exchanges = [*asked.main, *asked.fresh]
+    right = map(parts, truth.each(stacked(exchanges)))
+    moved: dict[int, set[str]] = {}  # how each result that is wrong may have moved
+    telling = 0
+    for one, its in zip(exchanges, right, strict=True):
+        mine = _given(one, asked.ask)
+        if isinstance(mine, str) or len(mine) != len(its):
+            return found
+        how = [_moved(a, b) for a, b in zip(mine, its, strict=True)]
+        if not all(how):
+            return found
+        off = [j for j, ways in enumerate(how) if SAME not in ways]
+        telling += any(len(set(its[j].ravel().tolist())) > 1 for j in off)
+        for j in off:
+            moved[j] = moved.get(j, how[j]) & how[j]
+    if telling < AGREE:
+        return found
+    return Finding(found.slug, f"{found.message} {_in_words(asked.ask, moved)}")
+
+
+def _moved(mine: Array, its: Array) -> set[str]:
+    """Return how an array may differ whose entries are the right ones."""
+    if mine.size != its.size:
+        return set()
+    pairs = {
+        SAME: (mine, its),
+        TRANSPOSED: (mine, its.T),
+        RESHAPED: (mine, its.reshape(mine.shape)),
+        MIXED: (np.sort(mine, axis=None), np.sort(its, axis=None)),
+    }
+    return {
+        how
+        for how, (one, other) in pairs.items()
+        if one.shape == other.shape and matches(one[None], other[None])
+    }
+
+
+def _in_words(ask: Ask, moved: Mapping[int, set[str]]) -> str:
+    """Return what happened to the results whose entries moved, by their places."""
+    ways = set.intersection(*moved.values())
+    names = [ask.kinds[j].called for j in moved if len(ask.kinds) > 1]
+    which = listed(names) if names and all(names) else "the result"
+    if TRANSPOSED in ways:
+        verb = "is" if len(names) < 2 else "are"
+        return f"All entries are right, but {which} {verb} transposed."
+    if RESHAPED in ways:
+        return "All entries and their order are right. Only the shape is wrong."
+    return f"All entries are right, but their order is wrong in {which}."
 
 
 def _again(mistake: Mistake, arguments: tuple[Any, ...], n: int) -> list[Answer]:

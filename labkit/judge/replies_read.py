@@ -22,8 +22,7 @@ from labkit.judge.answers import (
 from labkit.judge.ask import Ask, Asked, of_complex, replies, stacked
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
-from labkit.lesson.slips import OTHER_PACKAGES, no_python
-from labkit.lesson.starter import function_lines
+from labkit.lesson.slips import OTHER_PACKAGES, arguments, draws, no_python
 from robo47.checks import Array
 from robo47.paths import ROOT
 
@@ -246,20 +245,30 @@ def kept_state(asked: Asked, source: str = "") -> Finding | None:
     differ = [reply for reply in replied if _differs(reply)]
     if not differ:
         return None
-    code = "\n".join(function_lines(source, asked.function)[2])
-    if re.search(r"\brandom\b|\brng\b|\bdefault_rng\b", code):
-        return Finding(
-            "draws-itself",
-            "The same input gave two different answers, because the function draws "
-            "random numbers itself. Draw the random numbers in main() and pass them "
-            "as an argument, so that a run can be repeated.",
-        )
+    if draws(source, asked.function):
+        given = (a for a in arguments(source, asked.function) if "noise" in a)
+        return Finding("draws-itself", _draws_itself(next(given, "")))
     return Finding(
         "kept-between-calls",
         f"For {len(differ)} of {len(replied)} inputs, the same input gave two "
         "different answers, so a value is kept between calls: a default argument such "
         "as T=np.eye(4), an array or list at the top of the file, or the last call's "
         "input. Create it in the function.",
+    )
+
+
+def _draws_itself(given: str) -> str:
+    """Return that a function draws random numbers, and where these come from.
+
+    Args:
+        given: the argument that holds random numbers; "" without one.
+    """
+    remedy = "Draw the random numbers in main() and pass them as an argument"
+    if given:
+        remedy = f"Use only the random numbers in the argument `{given}`"
+    return (
+        "The same input gave two different answers, because the function draws random "
+        f"numbers itself. {remedy}, so that a run can be repeated."
     )
 
 

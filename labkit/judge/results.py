@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from labkit.base.text import count
-from labkit.judge.answers import capitalised
+from labkit.judge.answers import of_result
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding
 from robo47.errors import Robo47Error
@@ -96,8 +96,8 @@ def read(kind: Kinds, values: Sequence[Any]) -> list[list[Any]] | Finding:
     for one, column in zip(kinds, zip(*rows, strict=True), strict=True):
         part = one.read(column)
         if isinstance(part, Finding):
-            called = f"{one.called or 'One result'}: " if len(kinds) > 1 else ""
-            return Finding(part.slug, capitalised(called) + part.message)
+            called = (one.called or "one result") if len(kinds) > 1 else ""
+            return Finding(part.slug, of_result(part.message, called))
         found.append(part)
     return found
 

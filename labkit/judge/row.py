@@ -65,6 +65,14 @@ class Way:
         return self.status == "wrong" and self.says != ""
 
 
+@dataclass(frozen=True)
+class Table:
+    """The function of a `@row.wrongs`, and the names of its mistakes."""
+
+    code: Code
+    slugs: frozenset[str]
+
+
 def inside(where: str, says: str) -> str:
     """Return a clause with its place in front: "in [p] of the adjoint, ...".
 
@@ -119,6 +127,7 @@ class Row:
         self.unnoticed: dict[str, str] = {}  # changes that make no difference, and why
         self._entries: list[Callable[[], Iterable[Way]]] = []
         self._spans: list[Inputs] = []
+        self.tables: list[Table] = []
 
     # What a day's file says.
 
@@ -220,6 +229,8 @@ class Row:
         said = list(told(code.__doc__ or ""))
         known = {slug for slug, _, _ in said}
         table = once(code)
+        names = (slug.partition(" ")[0] for slug in known)
+        self.tables.append(Table(code, frozenset(names)))
         for slug, says, both in said:
             one = entry_of(table, slug, known)
             update_wrapper(one, code, (), ())  # its arguments' names

@@ -16,6 +16,7 @@ from labkit.judge.answers import (
     MATCHES,
     Parts,
     all_match,
+    as_clause,
     capitalised,
     content,
     of_result,
@@ -61,8 +62,9 @@ def authors(m: Matcher, digits: bool = True) -> Finding | None:
         found.setdefault(one.slug, with_evidence(m, one))
     if len(found) == 2:
         either, other = found.values()
-        says = f"Your numbers fit two different mistakes. Either: {either.message} Or: "
-        return Finding(either.slug, says + other.message)
+        says = "Your numbers fit two different mistakes."
+        says += f" Either: {as_clause(either.message)} Or: {as_clause(other.message)}"
+        return Finding(either.slug, says)
     return next(iter(found.values())) if len(found) == 1 else None
 
 

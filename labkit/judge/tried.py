@@ -53,6 +53,8 @@ def in_common(case: Case, S: Parts, T: Parts, i: int) -> str:
     if case.further is None or not found:
         return found
     wider = near_miss.in_common(*_with_further(case, S, T, i))
+    if wider == near_miss.LARGEST + near_miss.WHY and near_miss.EACH in found:
+        return wider  # it is true of all
     return wider if _form(wider) == _form(found) else ""
 
 

@@ -13,6 +13,7 @@ from functools import lru_cache
 OTHER_PACKAGES = ("IPython", "PIL", "cv2", "matplotlib", "mpl_toolkits", "numba",
                   "pandas", "plotly", "scipy", "seaborn", "sklearn", "sympy", "torch",
                   "tqdm")  # fmt: skip
+_GENERATORS = {"random", "rng", "default_rng"}
 _POINTER = "version https://git-lfs"
 _NOTEBOOK = re.compile(r'\s*\{\s*$|\s*\{\s*"cells"')
 # Beginnings of lines that Python cannot read, each with a sentence for the student.
@@ -30,6 +31,14 @@ def arguments(source: str, function: str) -> tuple[str, ...]:
     """Return the names of a function's arguments; () where it is not in the file."""
     found = _functions(source).get(function)
     return tuple(arg.arg for arg in found.args.args) if found else ()
+
+
+def draws(source: str, function: str) -> bool:
+    """Return whether the code of a function draws random numbers."""
+    found = _functions(source).get(function)
+    nodes = list(ast.walk(found)) if found else []
+    names = {getattr(node, "attr", getattr(node, "id", "")) for node in nodes}
+    return not _GENERATORS.isdisjoint(names - set(arguments(source, function)))
 
 
 def unfinished(source: str, function: str) -> str:

@@ -26,7 +26,7 @@ def _(R, t):
     t-turned-back: your code multiplies t by the transpose of R. Use t unchanged,
       because t is already expressed in the frame to which T maps
     type-of-R: your array has the data type of R. If R contains integers, as in
-      `np.eye(3, dtype=int)`, the array truncates t to whole numbers. Create an array of
+      `np.eye(3, dtype=int)`, NumPy truncates t to whole numbers. Create an array of
       floats instead
     """
     whole = np.array_equal(R, np.round(R))

@@ -16,8 +16,8 @@ from .panda_chain import PATH, fk, link, product, steps, turn
 def in_order(model, q, path=PATH):
     """joint-before-link: your code applies each joint's transform before the link's
       transform. Apply the link's transform first, because its offset leads to the joint
-    chain-reversed: your product is in the reverse order. Multiply each new transform on
-      the right
+    chain-reversed: your product is in the reverse order. Multiply by each new transform
+      on the right
     links-on-the-left: your code multiplies by the link transforms on the left and by
       the joint transforms on the right. Multiply by both on the right
     joints-on-the-left: your code multiplies by the joint transforms on the left and by
@@ -37,7 +37,8 @@ def in_order(model, q, path=PATH):
 
 
 def chain_reversed(model, q, path=PATH):
-    """your product is in the reverse order. Multiply each new transform on the right"""
+    """your product is in the reverse order. Multiply by each new transform on the
+    right"""
     return product(L @ J for L, J in steps(model, q, path[::-1]))
 
 
@@ -48,17 +49,17 @@ def on_each_other(model, q, path=PATH):
     """last-step-in-the-world: your code adds the offset of `attachment` along the world
       axes. Rotate this offset first, because it is expressed in the frame of the
       previous body
-    last-step-on-the-left: your code multiplies the transform of `attachment` on the
-      left, which moves the whole arm. Multiply this transform on the right
+    last-step-on-the-left: your code multiplies by the transform of `attachment` on the
+      left, which moves the whole arm. Multiply by this transform on the right
     local-taken-for-world: your code uses the `pos` and `quat` of `attachment` as its
       pose in the world. Both are relative to the parent body, so multiply the
       transforms of the whole chain
     offsets-summed: your rotation is correct, but your code adds the offsets from the
       file without rotating them. Rotate each offset first, because it is expressed in
       the frame of its parent body
-    point-with-w-0: your rotation is correct, but your code only rotates the offset of
-      `attachment` and omits the translation before this offset. The fourth coordinate
-      of a point should be 1, not 0
+    point-with-w-0: your rotation is correct, but your translation is only the rotated
+      offset of `attachment`. The fourth coordinate of a point should be 1, not 0,
+      because the transform should also translate the point
     inertial-frames: your code uses `ipos` and `iquat`, which describe a body's inertial
       frame. Use `pos` and `quat` instead, which describe the body frame
     inertial-turns: your code uses `iquat`, which is the orientation of a body's
@@ -97,8 +98,7 @@ def inertial(model, q, path, place):
 
 def offset_turned_too_late(model, q, path=PATH):
     """your rotation is correct, but your code updates the rotation before it adds the
-    link's offset. Add the offset first, multiplied by the rotation before this
-    update"""
+    link's offset. Multiply the offset by the previous rotation instead"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         R = R @ L[:3, :3] @ J[:3, :3]
@@ -107,8 +107,8 @@ def offset_turned_too_late(model, q, path=PATH):
 
 
 def turns_in_reverse(model, q, path=PATH):
-    """your code multiplies the rotations in the wrong order. Multiply each new rotation
-    on the right"""
+    """your code multiplies the rotations in the wrong order. Multiply by each new
+    rotation on the right"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         t = t + R @ L[:3, 3]

@@ -75,11 +75,12 @@ HALVES = {
     "subtracted": "your code subtracts the left factor's translation instead of "
     "adding it",
     "summed-by-columns": "your code multiplies R and the right factor's translation "
-    "entry by entry (R * t) and sums the columns. Use R @ t instead",
-    "summed-by-entries": "your expression R * t multiplies R and t entry by entry. "
-    "Use R @ t instead",
+    "entry by entry (R * t) and sums each column. Use R @ t instead, which sums each "
+    "row",
+    "summed-by-entries": "your code multiplies each row of R by only one entry of t. "
+    "Use R @ t instead, which multiplies each row by the whole vector t",
     "diagonal-only": "your code multiplies the right factor's translation only by "
-    "the diagonal of R. Use R @ t instead, which contains all entries of R",
+    "the diagonal of R. Use R @ t instead, which uses all entries of R",
     "entries-of-4x4": "your code multiplies the two 4x4 matrices entry by entry (A * "
     "B). Use the matrix product instead",
 }

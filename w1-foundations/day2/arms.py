@@ -8,7 +8,7 @@ from labkit.judge import Matrix
 from robo47 import kinematics, panda, screws
 
 JOINTS = tuple(f"the screw of joint{i}" for i in range(1, 8))
-TWIST = ("omega x", "omega y", "omega z", "v x", "v y", "v z")
+TWIST = ("omega_x", "omega_y", "omega_z", "v_x", "v_y", "v_z")
 SCREWS = Matrix((7, 6), rows=JOINTS, columns=TWIST)
 FAR = np.array([0.3, -0.4, 0.5, -1.2, 0.6, 3.5, -0.7])  # joint6 goes to 3.75
 LINKS = [f"body:link{i}" for i in range(1, 8)]

@@ -53,22 +53,22 @@ def _(axis, theta):
       are equal
     identity-missing: your code omits the identity matrix. This term is needed because a
       rotation by 0 is the identity matrix
-    cosine-for-one-minus-cosine: your factor of K^2 is cos(theta). The factor should be
+    cosine-for-one-minus-cosine: your coefficient of K^2 is cos(theta). The coefficient
+      should be 1 - cos(theta), which is 0 at theta = 0
+    one-minus-sine: your coefficient of K^2 is 1 - sin(theta). The coefficient should be
       1 - cos(theta), which is 0 at theta = 0
-    one-minus-sine: your factor of K^2 is 1 - sin(theta). The factor should be 1 -
-      cos(theta), which is 0 at theta = 0
     sin-and-cos-swapped: your code swaps the sine and the cosine, so the matrix is not
       the identity at theta = 0
-    coefficients-swapped: your code swaps the factors of K and K^2. The factor of K
-      should be sin(theta), and the factor of K^2 should be 1 - cos(theta)
+    coefficients-swapped: your code swaps the coefficients of K and K^2. The coefficient
+      of K should be sin(theta), and the coefficient of K^2 should be 1 - cos(theta)
     first-order-only: your series ends after the term theta K, so the matrix is accurate
       only for small angles. Use the closed form with the sine and the cosine
     second-order-only: your series ends after the theta^2 term, so the matrix is
       accurate only for small angles. Use the closed form with the sine and the cosine
     cosine-before-identity: your code multiplies the identity matrix by cos(theta). This
       factor belongs to the formula with axis axis^T, not to the formula with K^2
-    half-angle-not-squared: your factor of K^2 is 2 sin(theta / 2). The factor should be
-      1 - cos(theta), which equals 2 sin(theta / 2)^2
+    half-angle-not-squared: your coefficient of K^2 is 2 sin(theta / 2). The coefficient
+      should be 1 - cos(theta), which equals 2 sin(theta / 2)^2
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -99,7 +99,7 @@ def _(axis, theta):
       axis^T, so the matrix is not the identity at theta = 0
     dyad-missing: your code omits the term (1 - cos(theta)) axis axis^T. This term is
       needed because a rotation does not change vectors along the axis
-    always-about-z: your code rotates about z for every axis. Use the argument `axis`
+    always-about-z: your code rotates about z for every axis. Use the given axis instead
     """
     K = skew(axis)
     dyad = np.outer(axis, axis)

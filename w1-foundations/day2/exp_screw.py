@@ -70,8 +70,8 @@ def travelled(S, theta, one, first, second):
 
 @row.wrongs(hidden={"theta-wrapped": "the lab's angles are between -pi and pi"})
 def _(S, theta):
-    """twist-order: your code reads the halves of the screw as (v; omega). The half
-      omega should come first
+    """twist-order: your code reads the screw as (v; omega). The order in this course is
+      (omega; v)
     hinge-at-the-origin-forgotten: your code returns the identity matrix for a screw
       with v = 0. Such a screw represents a rotation about a line through the origin
     turns-backwards: your code computes the motion for -theta, which has the opposite
@@ -95,11 +95,11 @@ def _(S, theta):
       theta = 0
     sine-for-theta: your rotation is correct, but the first term of your translation is
       sin(theta) v. This term should be theta v, as for a pure translation
-    exp-coefficients-swapped: your rotation is correct, but your code swaps the factors
-      of K and K^2 in the translation
+    exp-coefficients-swapped: your rotation is correct, but your code swaps the
+      coefficients of K and K^2 in the translation
     as-in-the-rotation: your rotation is correct, but your translation uses sin(theta)
-      and 1 - cos(theta), which are the factors of the rotation. Use the integrals of
-      these two factors from 0 to theta
+      and 1 - cos(theta), which are the coefficients of the rotation. Use the integrals
+      of these two coefficients from 0 to theta
     travel-sign-of-K: your rotation is correct, but the K term of your translation has
       the wrong sign
     travel-sign-of-KK: your rotation is correct, but the K^2 term of your translation
@@ -147,13 +147,13 @@ def _(S, theta):
     moment-used-as-point: your code uses v as a point on the axis. Use the point omega x
       v instead, because v is the velocity of the body-fixed point at the origin
     pitch-forgotten: your code omits the translation along the axis if omega is not 0.
-      This translation is needed for a screw with a pitch
+      This translation is needed for a screw with a nonzero pitch
     pitch-without-theta: your code multiplies the translation along the axis by theta
       only if omega is 0. Always multiply this translation by theta
     hinges-only: your code omits the translation along the axis for every screw. This
       translation is 0 only for a pure rotation
     sign-of-the-point: your rotation is correct, but your point on the axis has the
-      wrong sign. The point of the axis nearest to the origin is omega x v
+      wrong sign. The point on the axis nearest to the origin is omega x v
     slide-forgotten: your translation is 0 for a screw with omega = 0. Such a screw
       represents a pure translation, so the translation should be theta v
     slide-without-theta: your translation is v for a screw with omega = 0. The

@@ -20,8 +20,9 @@ def _(body_screws, M, q):
     """M-last: your product has M to the right of the exponentials, or your code
       transforms the screws a second time. For screws in the end-effector frame, M
       belongs on the left
-    motions-on-the-left: your code multiplies each exponential on the left. The screws
-      are expressed in the end-effector frame, so each exponential belongs on the right
+    motions-on-the-left: your code multiplies by each exponential on the left. The
+      screws are expressed in the end-effector frame, so each exponential belongs on the
+      right
     """
     return {
         "M-last": lambda: space(body_screws, M, q),

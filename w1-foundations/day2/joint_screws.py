@@ -26,8 +26,8 @@ def _(rng):
 def _(T_zero):
     """axis-row-not-column: your axis is the third row of R. Use the third column
       instead, which is the link's z axis expressed in the world frame
-    axis-local-z: your axis is (0, 0, 1) for every joint, the z axis expressed in the
-      link frame. The screw should be expressed in the world frame
+    axis-local-z: your axis is (0, 0, 1) for every joint, which is the z axis expressed
+      in the link frame. The screw should be expressed in the world frame
     axis-x-column: your axis is the link's x axis. Use the link's z axis, because the
       Panda's joints rotate about z
     axis-y-column: your axis is the link's y axis. Use the link's z axis, because the
@@ -35,8 +35,8 @@ def _(T_zero):
     point-is-local-pos: your point on each axis is the link's position relative to its
       parent. Use the position relative to the world, because the screw should be
       expressed in the world frame
-    all-local: your axis and your point are relative to the parent link. Use both
-      relative to the world, because the screw should be expressed in the world frame
+    all-local: your axis and your point are expressed in the frame of the parent link.
+      Express both in the world frame, as the screw requires
     poses-multiplied: your code multiplies the poses along the arm. Use each pose
       unchanged, because the given poses are already relative to the world
     point-turned-back: your code rotates the point into the link frame. Use the point

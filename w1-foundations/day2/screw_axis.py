@@ -20,8 +20,8 @@ def _(rng):
 @row.wrongs
 def _(axis, point):
     """moment-sign: your omega is correct, but v has the wrong sign. The vector v is the
-      velocity of the body-fixed point at the origin, whose position relative to your
-      point is -point
+      velocity of the body-fixed point at the origin. The vector from the point on the
+      axis to the origin is -point
     moment-is-point: your v is the point itself. The vector v should be the velocity of
       the body-fixed point at the origin, which also depends on omega
     moment-is-minus-point: your v is the negative of the point. The vector v should be
@@ -31,10 +31,10 @@ def _(axis, point):
       perpendicular to this position
     moment-forgotten: your v is 0 for every point, which is correct only for an axis
       through the origin. Compute v from the axis and the point
-    twist-order: your two halves are swapped. The first half should be omega, and the
-      second half should be v
-    twist-order-and-sign: your two halves are swapped, and v also has the wrong sign.
-      The first half should be omega
+    twist-order: your code swaps omega and v. The first half of the screw should be
+      omega, and the second half should be v
+    twist-order-and-sign: your code swaps omega and v, and v also has the wrong sign.
+      The first half of the screw should be omega
     product-by-entries: your v is the entry-by-entry product of omega and the point. Use
       the cross product instead
     product-by-entries 2: your v is the entry-by-entry product of omega and the point.

@@ -44,9 +44,9 @@ def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
     if one_of_two[some].max() > OFF and _alike(np.abs(S[some]), np.abs(T[some])):
         return Finding(
             "signs-near-pi",
-            f"{says} The entries are correct except for their signs, which a square "
-            "root of the diagonal loses. Which entries of R + R^T contain their "
-            "relative signs?",
+            f"{says} The entries are correct except for their signs, because the "
+            "square roots of the diagonal are never negative. Which entries of R + R^T "
+            "determine the relative signs?",
         )
     if found := _set_to_pi(S, T, some):
         return found

@@ -48,19 +48,20 @@ def _(J, e, damping):
     transpose-only: your code returns the gradient step J^T e. The damped least-squares
       step also contains the inverse of the damped matrix J J^T
     pseudo-inverse-scaled: your code divides the pseudo-inverse step by 1 + damping^2,
-      which scales all directions equally. Damping should mainly reduce the directions
-      with small singular values
+      which scales all directions equally. Damping should mainly reduce the step along
+      the directions with small singular values
     damping-fixed: your damping is always 0.05. Use the argument `damping`
-    damping-added-to-the-values: your factors are 1 / (s + damping) for the singular
-      values s. The factors should be s / (s^2 + damping^2)
-    singular-value-missing 2: your factors are 1 / (s^2 + damping^2) for the singular
-      values s above 0. Each factor should also contain s, because J^T contributes a
-      factor s
+    damping-added-to-the-values: your code replaces 1 / s with 1 / (s + damping) for
+      each singular value s. Use s / (s^2 + damping^2) instead
+    singular-value-missing 2: your code replaces 1 / s with 1 / (s^2 + damping^2) for
+      each singular value s above 0. Multiply this expression by s, because J^T
+      contributes a factor s
     damping-as-a-cut: your code passes `damping` to the pseudo-inverse as `rcond`, which
-      discards small singular values. Damping should only reduce the weight of small
-      singular values
-    singular-value-missing: your factors are 1 / (s^2 + damping^2) for the singular
-      values s. Each factor should also contain s, because J^T contributes a factor s
+      discards the directions with small singular values. Damping should only reduce the
+      step along these directions
+    singular-value-missing: your code replaces 1 / s with 1 / (s^2 + damping^2) for each
+      singular value s. Multiply this expression by s, because J^T contributes a factor
+      s
     """
     U, s, Vt = np.linalg.svd(J, full_matrices=False)
     along = U.T @ e  # the singular directions of the hand

@@ -30,10 +30,10 @@ def _(J_space, p, F):
       wrench that the hand exerts, so the motor power should equal the power of F
     pseudo-inverse: your code returns J^+ F, which does not conserve power. Which matrix
       makes the motor power equal to the power of F at the hand?
-    moment-forgotten: your code omits the moment. The moment also contributes to the
-      power of F, by moment . omega
-    force-forgotten: your code omits the force. The force also contributes to the power
-      of F, by force . v
+    moment-forgotten: your code omits the moment. The power of F also contains the term
+      moment . omega
+    force-forgotten: your code omits the force. The power of F also contains the term
+      force . v
     arm-the-wrong-way: your moment of the force about the origin is f x p. The moment
       should be p x f
     arm-twice: your code adds p x f to the moment, as for J_space, and also uses the

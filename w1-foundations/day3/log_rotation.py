@@ -23,7 +23,7 @@ def _half_turns(rng):
 
 HALF_TURN = HeldOut(
     "wrong-at-pi",
-    "Your function is correct for angles below pi, but not for exactly pi. There "
+    "Your function is correct for angles below pi, but not for exactly pi. At pi, "
     "R - R^T is 0 and determines neither the axis nor its sign. The docstring defines "
     "the sign.",
     _half_turns,
@@ -213,9 +213,9 @@ def from_column(R, k):
 for k, (which, missing) in enumerate((("first", "x"), ("second", "y"), ("last", "z"))):
     row.wrong(
         "fixed-column",
-        f"your code always takes the axis from the {which} column of axis axis^T "
-        f"near pi. This column is 0 if the axis has no {missing} component. Use the "
-        "column with the largest norm instead",
+        f"for angles near pi, your code always takes the axis from the {which} column "
+        f"of axis axis^T. This column is 0 if the axis has no {missing} component. Use "
+        "the column with the largest norm instead",
         hidden="its half turn is about y" if missing == "y" else "",
     )(lambda R, k=k: from_column(R, k))
 

@@ -31,8 +31,8 @@ def what_the_hand_feels(case: Case) -> Finding | None:
     i = int(np.argmax(difference(S, T)))
     return Finding(
         "not-felt-but-off",
-        f"The hand does not move, because J times your result is 0, but your result "
-        f"is not the projection of dq. Its norm is {np.linalg.norm(S[i]):.3g}; "
+        f"J times your result is 0, so the hand does not move, but your result is not "
+        f"the projection of dq. Its norm is {np.linalg.norm(S[i]):.3g}; "
         f"expected {np.linalg.norm(T[i]):.3g}.",
     )
 
@@ -64,10 +64,10 @@ def _(J, dq):
     unchanged: your code returns dq unchanged. Subtract the part of dq that moves the
       hand
     added: your code adds the part of dq that moves the hand. Subtract this part instead
-    nothing-left: your result is 0. Return the part of dq that does not move the hand,
-      because an arm with seven joints always has such a motion
-    normalised: your code normalises the result. Return the projection unscaled, because
-      its norm depends on dq
+    nothing-left: your result is always 0. An arm with seven joints always has motions
+      that do not move the hand. Return the part of dq along these motions
+    normalised: your code normalises the result. Return the projection of dq itself,
+      whose norm depends on dq
     one-direction-only: your code uses only the last right singular vector. If J is
       singular, use all right singular vectors with the singular value 0
     first-direction-kept: your code does not remove the part of dq along the first right

@@ -95,7 +95,7 @@ def _(T, T_goal):
       translation should be the vector from the hand to the goal
     translation-sign: your translation leads from the goal to the hand. The translation
       should lead from the hand to the goal
-    screw-for-translation: your translation is p_goal - R p with the rotation R of
+    screw-for-translation: your translation is p_goal - R p, where R is the rotation of
       T_goal T^-1. The translation should be p_goal - p
     """
     goal = T_goal[:3, 3]

@@ -60,7 +60,7 @@ def _(screws, M, T_goal, q_start, limits):
     error-in-the-hands-axes: your error is expressed in the hand frame, but J_site is
       expressed in the world frame. Express both in the same frame
     damping-not-squared: your code adds the damping instead of its square to the
-      diagonal of J J^T, so the damping is too strong
+      diagonal of J J^T. Add damping^2 instead
     limits-forgotten: your code does not apply the joint limits. Apply the limits after
       each step
     jacobian-never-updated: your code computes the Jacobian only at the start. Compute
@@ -87,8 +87,8 @@ def _(screws, M, T_goal, q_start, limits):
 
 @row.wrong(hidden="it arrives all the same: success is no proof")
 def damping_not_squared(screws, M, T_goal, q_start, limits):
-    """your code uses the squared damping as the damping, so the damping is squared
-    twice. Is a square root missing?"""
+    """your code uses damping^2 as the damping, and the step then squares this value
+    again. Take its square root first"""
     return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: ee / 2 + 1e-6)
 
 

@@ -57,18 +57,18 @@ ZERO = np.zeros((3, 3))
 def _(screws, q):
     """screws-constant: your columns are the screws at q = 0. Transform each screw by
       the motions of all joints before it
-    last-joint-only: your code moves each screw only by the joint directly before it.
-      Move each screw by all joints before it
+    last-joint-only: your code transforms each screw only by the motion of the joint
+      directly before it. Use the motions of all joints before it
     product-reversed: your code multiplies the exponentials in the reverse order. The
       exponential of joint 1 should be on the left
     one-joint-late: your code transforms each screw before it multiplies the product by
       the exponential of the preceding joint. Multiply by this exponential first
-    moved-by-the-next: your code also moves each screw by the joint after it. Move each
-      screw only by the joints before it
-    moved-by-all: your code moves every screw by all seven joints. Move each screw only
-      by the joints before it
-    moved-by-those-after: your code moves each screw by the joints after it. Move each
-      screw by the joints before it instead
+    moved-by-the-next: your code also transforms each screw by the motion of the joint
+      after it. Use only the motions of the joints before it
+    moved-by-all: your code transforms every screw by the motions of all seven joints.
+      Use only the motions of the joints before it
+    moved-by-those-after: your code transforms each screw by the motions of the joints
+      after it. Use the motions of the joints before it instead
     adjoint-of-the-inverse: your code transforms the screws with the adjoint of the
       inverse motion. Use the adjoint of the motion itself
     columns-reversed: your columns are in the reverse order. The column of joint 1

@@ -122,14 +122,12 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
     if after <= 1e-8:
         return None
     if _reached(T_goal, q_start, limits, 45):
-        says = (
-            "Your result does not reach a near target: the norm of its pose error is "
-        )
+        says = "Your result does not reach a nearby target. The norm of its pose error "
         return Finding(
             "not-reached",
-            f"{says}{after:.2g} (in rad and m). Does the loop stop before the error is "
-            "below 1e-8, or are its steps too short, because the damping differs from "
-            "the damping in the docstring?",
+            f"{says}is {after:.2g} (in rad and m). Does the loop stop before this norm "
+            "is below 1e-8? Or are its steps too short, for example because the "
+            "damping differs from the damping in the docstring?",
         )
     return _as_the_docstring(T_goal, q_start, limits, after)
 
@@ -184,9 +182,9 @@ def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
     )
     return Finding(
         "not-the-best",
-        f"{says} (in rad and m). Does your code return the q with the smallest "
-        f"error, as a copy if q changes in place? Are the steps and their damping as "
-        f"in the docstring?",
+        f"{says} (in rad and m). Does your code return the q with the smallest error? "
+        "If q changes in place, keep a copy of the best q. Are the steps and their "
+        "damping as in the docstring?",
     )
 
 

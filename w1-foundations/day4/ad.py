@@ -32,8 +32,8 @@ def _(V):
     v-last: your lower right block is [v]. Both diagonal blocks should be [omega]
     identity-added: your code adds the identity matrix. Omit the identity matrix,
       because ad(V) is a rate of change and ad(0) should be 0
-    product-for-v: your lower left block is [v] [omega]. This block should be [v]. Only
-      the adjoint of a pose contains a product, [p] R
+    product-for-v: your lower left block is [v] [omega]. This block should be [v],
+      because only the adjoint of a pose contains a product such as [p] R
     omega-everywhere: your lower left block is [omega]. This block should be [v]
     """
     W = skew(V[:3])

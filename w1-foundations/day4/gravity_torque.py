@@ -41,11 +41,11 @@ def torque(
 def _(J, masses, coms_world, g):
     """gravity-sign: your code returns the torque that gravity exerts. Return the motor
       torque that balances this torque, which has the opposite sign
-    velocity-of-the-origin: your code uses the lower half of J_space, which is the
+    velocity-of-the-origin: your code uses the lower half of J_space, which gives the
       velocity of the body-fixed point at the world origin. Use the velocity of the
       centre of mass, where the weight acts
-    omega-rows-for-v: your code uses the upper half of J_space, which is omega, as the
-      velocity. Use the velocity of the centre of mass, v + omega x c
+    omega-rows-for-v: your code uses the upper half of J_space, which gives omega. Use
+      the velocity of the centre of mass instead, which is v + omega x c
     """
     given = masses, coms_world, g
     tau = gravity_torque(J, *given)

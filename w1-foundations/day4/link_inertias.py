@@ -89,8 +89,8 @@ def _(T_links, masses, coms, inertias):
       unchanged, because the poses in T_links are already relative to the world
     last-link-for-all: all seven of your matrices belong to link7. Does your loop
       overwrite one array and append it for every link? Create a new array each time
-    already-summed: your code adds the inertias of the links after each link to its
-      matrix. Each matrix should contain only the inertia of one link
+    already-summed: your code adds the inertias of all later links to each link's
+      matrix. Each matrix should contain only the inertia of its own link
     """
 
     def placed(T, c=coms):

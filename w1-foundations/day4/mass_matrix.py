@@ -49,8 +49,8 @@ def cut(J, G, armature):
     next-joint-too: your code includes the column of the next joint in each link's
       Jacobian. Omit this column, because this joint does not move the link
     columns-cut-on-the-wrong-side: your code uses the columns of the link's own joint
-      and of the joints after it for each link. Use the columns of this joint and of the
-      joints before it instead
+      and of all later joints in each link's Jacobian. Use the columns of this joint and
+      of all earlier joints instead
     own-joint-only: your code uses only the column of the link's own joint in each
       link's Jacobian. Include the columns of all joints before this joint, because they
       also move the link

@@ -12,7 +12,7 @@ from labkit.judge import Matrix, Vector, rounded
 from robo47 import dynamics, panda
 
 JOINTS = tuple(f"joint{i}" for i in range(1, 8))
-TWIST = ("omega x", "omega y", "omega z", "v x", "v y", "v z")
+TWIST = ("omega_x", "omega_y", "omega_z", "v_x", "v_y", "v_z")
 TORQUE = Vector((7,), "N m", names=JOINTS)
 SIX = Matrix((6, 6), rows=TWIST, columns=TWIST)
 DOWN = np.array([0.0, 0.0, -9.81])

@@ -23,8 +23,8 @@ def starts_elsewhere(case: Case) -> Finding | None:
     t = case.arguments[0]
     if np.abs(case.S[t == 0.0] - 1.0).max() < 1e-8:
         return None
-    says = "For some zeta, your error at t = 0 is not 1. The error should always start "
-    says += "at 1."
+    says = "For some zeta, your error at t = 0 is not 1. The error should be 1 at "
+    says += "t = 0 for every zeta."
     return Finding("does-not-start-at-one", says)
 
 
@@ -45,7 +45,7 @@ row.cases({
     "times that begin at 0 and increase": (
         lambda t, omega, zeta: t[0] == 0.0 and bool(np.all(np.diff(t) > 0.0))
     ),
-    "times in another order, or from another start": (
+    "times that do not begin at 0 or do not increase": (
         lambda t, omega, zeta: t[0] != 0.0 or bool(np.any(np.diff(t) <= 0.0))
     ),
 })  # fmt: skip
@@ -80,7 +80,7 @@ def _(t, omega, zeta):
     envelope-of-omega: your curve is e^(-omega t) for every zeta. The derivative of the
       error should be 0 at t = 0, but the derivative of this curve is -omega
     half-the-damping: your curve belongs to half the damping ratio. In the error
-      equation, the first derivative of the error has the factor 2 zeta omega
+      equation, the coefficient of the first derivative is 2 zeta omega
     output-in-place-of-error: your curve rises from 0 to 1, as the step response of the
       joint does. Return the error, which is 1 minus the step response
     omega-in-turns: your code multiplies omega by 2 pi. Use omega unchanged, because it
@@ -121,9 +121,9 @@ def _(t, omega, zeta):
       the two weights so that the derivative of the error is 0 at t = 0
     weights-swapped: the weights of your two exponentials are swapped for zeta above 1.
       The slow exponential should have the larger weight
-    weights-summed: your error does not start at rest for zeta above 1. In the formula
-      with two exponentials, subtract both the terms and the rates instead of adding
-      them. In the formula with cosh and sinh, your factor of sinh is inverted
+    weights-summed: your error does not start at rest for zeta above 1. If your formula
+      contains two exponentials, subtract in its numerator and in its denominator
+      instead of adding. If it contains cosh and sinh, your factor of sinh is inverted
     critical-above-one: your code returns the curve for zeta = 1 for every zeta above 1.
       The error should decay more slowly for a larger zeta
     """

@@ -17,10 +17,11 @@ def one_gain(inputs, many="kp and kd have 7 entries each", one=TWO_NUMBERS):
     """Return the question whether a right function also takes one number as a gain."""
 
     def says(failing=(), usual=()):
-        how = "stops" if any(call.reply.kind for call in failing) else "is wrong"
+        stops = any(call.reply.kind for call in failing)
+        how = "stops with an error" if stops else "is wrong"
         return (
             f"Your function is correct if {many}. It {how} if {one}. Which "
-            "multiplication operator accepts arrays and single numbers?"
+            "multiplication operator accepts both arrays and single numbers?"
         )
 
     return HeldOut("one-number-as-gain", says(), inputs, told=says)

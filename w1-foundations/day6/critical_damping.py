@@ -43,9 +43,9 @@ def by_modes(K, L):
 def _(K, Lambda):
     """Lambda-ignored: your result is 2 sqrt(K), which is the critical damping of a unit
       mass. Use the argument `Lambda` as well
-    another-design: your code returns another critically damped design, which
-      diagonalises Lambda and K together. Return the sum of the two products of
-      sqrt(Lambda) and sqrt(K) instead
+    another-design: your code diagonalises Lambda and K together, which gives another
+      critically damped design. Return the sum of the two products of sqrt(Lambda) and
+      sqrt(K) instead
     diagonal-only: your code uses 2 sqrt(k m) for each axis, with m from the diagonal of
       Lambda. Use the matrix square root of Lambda instead, because Lambda couples the
       axes
@@ -87,17 +87,18 @@ def _(K, Lambda):
     """entries-square-rooted: your code uses np.sqrt, which takes the square root of
       each entry of Lambda. Use the matrix square root X instead, which satisfies X X =
       Lambda
-    eigenvectors-transposed: your code transposes the eigenvectors. The columns of V are
-      the eigenvectors, so the square root is V diag(sqrt(values)) V^T
+    eigenvectors-transposed: your code transposes V, the matrix whose columns are the
+      eigenvectors. The square root is V diag(sqrt(values)) V^T
     eigenvalues-not-rooted-back: your square root diag(sqrt(values)) is expressed in the
-      basis of the eigenvectors. Transform the square root back with V
+      basis of the eigenvectors. Transform it back with V, the matrix whose columns are
+      the eigenvectors
     cholesky: your code uses a Cholesky factor L, which satisfies L L^T = Lambda. Use
       the matrix square root X instead, which satisfies X X = Lambda
     entries-square-rooted 2: your code takes the square root of the absolute value of
       each entry of Lambda. Use the matrix square root X instead, which satisfies X X =
       Lambda
     eigenvectors-transposed 2: your code omits the last transpose. The square root is V
-      diag(sqrt(values)) V^T
+      diag(sqrt(values)) V^T, where the columns of V are the eigenvectors
     """
     values, V = np.linalg.eigh(Lambda)
     roots = {

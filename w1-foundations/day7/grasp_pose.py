@@ -70,9 +70,9 @@ def _(T_world_cube, above):
 @row.wrongs
 def _(T_world_cube, above):
     """tool-up: the z axis of your tool points up. The z axis should point down
-    about-y: your code turns the tool over about its y axis, so at yaw 0 the x axis of
-      the tool points backwards. At yaw 0, the x axis of the tool should be the world x
-      axis
+    about-y: your code rotates the tool by 180 degrees about its y axis instead of its x
+      axis. At yaw 0, the x axis of the tool then points backwards, but it should be the
+      world x axis
     left-handed: your code reverses only the z axis, so the matrix is a reflection with
       determinant -1. A rotation reverses two axes
     """

@@ -57,12 +57,12 @@ def line(T0, T1, s, turn):
 
 @row.wrongs
 def _(T0, T1, s):
-    """by-entries: your code interpolates the entries of R linearly, so the result
-      between the two ends is not a rotation matrix. Multiply the angle of the rotation
-      from R0 to R1 by s instead
+    """by-entries: your code interpolates the entries of R0 and R1 linearly, so the
+      result between the two ends is not a rotation matrix. Multiply the angle of the
+      rotation from R0 to R1 by s instead
     entries-made-a-rotation: your code computes the rotation matrix nearest to the
-      linear interpolation of R, so the angular velocity is not constant. Multiply the
-      angle of the rotation from R0 to R1 by s instead
+      linear interpolation of R0 and R1, so the angular velocity is not constant.
+      Multiply the angle of the rotation from R0 to R1 by s instead
     nlerp: your code interpolates the quaternions linearly and normalises the result, so
       the angular velocity is not constant. Multiply the angle of the rotation from R0
       to R1 by s instead

@@ -11,7 +11,7 @@ from robo47.trajectory import PEAK_ACCELERATION, PEAK_SPEED
 NO_LIMIT = 1e9  # rad/s2, in the docstring's case
 NO_WAY = HeldOut(
     "no-way",
-    "Your function is correct except if no joint moves. The duration should then be "
+    "Your function is correct except when no joint moves. The duration should then be "
     "0 s.",
     lambda rng: [(np.zeros(7), SPEED_LIMITS, ACC_LIMITS)],
 )
@@ -102,12 +102,13 @@ def _(delta_q, v_max, a_max):
       acceleration. Use the longer of the two, which already satisfies both limits
     shorter-of-two: your code returns the shorter of the durations for velocity and
       acceleration, which violates one of the limits. Return the longer one
-    shorter-of-two 2: your code uses the shorter of the durations for velocity and
-      acceleration for each joint, which violates one of the limits. Use the longer one
+    shorter-of-two 2: for each joint, your code uses the shorter of the durations for
+      velocity and acceleration, which violates one of the limits. Use the longer one
     fastest-joint: your code returns the shortest duration of all joints, so the other
       joints violate their limits. Return the longest duration
-    fastest-joint 2: your code uses the shortest duration of all joints for each limit,
-      so the other joints violate their limits. Use the longest duration
+    fastest-joint 2: your code uses the shortest duration of all joints, separately for
+      velocity and acceleration, so the other joints violate their limits. Use the
+      longest duration
     one-length: your code uses the norm of delta_q for all joints. Use each joint's own
       displacement and its own limits
     summed: your code adds the durations of the joints. Use the longest duration

@@ -97,8 +97,8 @@ def _(t, L, v, a):
 
 @row.wrongs
 def _(t, L, v, a):
-    """ramps-way-forgotten: your phase of constant velocity starts at the position 0.
-      This phase should start at the position where the acceleration phase ends
+    """ramps-way-forgotten: your phase of constant velocity starts at position 0. This
+      phase should start at the position where the acceleration phase ends
     does-not-stop: your acceleration is still `-a` after the end, so the arm moves
       backwards. The acceleration should be 0, because the arm is at rest
     does-not-wait: your acceleration is already `a` before the start. The acceleration

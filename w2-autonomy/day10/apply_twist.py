@@ -67,7 +67,7 @@ def _(T, xi):
       omega is 0 or parallel to v. Use the translation of the matrix exponential instead
     length-lost: your code normalises xi, so the rotation angle is 1 rad. The angle
       should be the norm of omega
-    slides-left-out: if omega is 0, your code returns T unchanged. Translate T by v
+    slides-left-out: your code returns T unchanged if omega is 0. Translate T by v
       instead
     identity-where-still: your code returns the identity matrix for xi = 0. Return T
       instead

@@ -102,7 +102,7 @@ for slug, says, other in (
                          "from the corner of the image",
      {"pixel": lambda uv: uv - 0.5}),
     ("depth-only-in-z", "your code multiplies only z by the depth. Multiply x and y "
-                        "by the depth as well, because the whole ray is scaled",
+                        "by the depth as well, so that the point stays on the ray",
      {"scaled": lambda ray, d: np.hstack([ray[:, :2], d])}),
     ("depth-added", "your code adds the depth to z. Multiply the whole ray by the "
                     "depth",

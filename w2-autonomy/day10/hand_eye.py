@@ -44,10 +44,9 @@ def _(rng):  # two of the motions rotate by less than 0.2 rad
 
 
 @row.valid(
-    "Your result is correct for exact motions. With noise, no X fits all motions, so "
-    "the result depends on the method. Use the rotation that is nearest to the sum "
-    "of a b^T over the rotation vectors, as in kabsch, and then the least-squares t "
-    "for this rotation."
+    "Your result is correct for exact motions, but the specified method gives another "
+    "result for noisy motions. Use the rotation nearest to the sum of a b^T, as in "
+    "kabsch, and then the least-squares t for this rotation."
 )
 def _(A, B, X):
     return np.abs(A @ X - X @ B).max() < 1e-8
@@ -110,12 +109,12 @@ def solved(
 
 for slug, says, other in (
     ("mirror", "your code does not check the determinant of U V^T. If it is -1, U V^T "
-               "is a reflection, so negate the direction of the smallest singular "
-               "value",
+               "is a reflection, so negate the singular vector in U that belongs to "
+               "the smallest singular value",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
     ("mirror-turned-round", "if U V^T is a reflection, your code negates the whole "
-                            "matrix. Negate only the direction of the smallest "
-                            "singular value",
+                            "matrix. Negate only the singular vector in U that "
+                            "belongs to the smallest singular value",
      {"turn": partial(turns, rotation=all_turned)}),
     ("R-transposed", "your rotation is transposed. It should map the rotation vectors "
                      "b of the camera to the rotation vectors a of the hand, so use "

@@ -39,8 +39,8 @@ def once_each(away):
 
 @row.wrongs
 def _(T, source, target):
-    """step-alone: your result maps the source that T has already moved. Return the
-      motion that maps the source itself
+    """step-alone: your result is the motion of the source points after T has moved
+      them. Return the motion of the source points themselves
     step-on-the-right: your code multiplies T by the step on the right. The step is
       applied after T, so it belongs on the left
     step-twice: your code applies T twice. The motion is fitted to the source itself, so
@@ -49,8 +49,8 @@ def _(T, source, target):
       so it already contains T
     by-sizes-added: your code chooses the nearest point by the sum of the absolute
       differences. Use the Euclidean distance instead
-    nearer-half: your code fits only the half of the pairs that are nearer to each
-      other. Fit all pairs
+    nearer-half: your code uses only the closer half of the pairs for the fit. Use all
+      pairs
     each-once: your code uses each target point at most once. Omit this restriction,
       because several source points may have the same nearest target point
     in-the-plane: your code uses only x and y to find the nearest point. Use all three

@@ -65,27 +65,29 @@ def all_turned(U, Vt):
 
 for slug, says, other in (
     ("mirror", "your code does not check the determinant of U V^T. If it is -1, U V^T "
-               "is a reflection, so negate the direction of the smallest singular "
-               "value",
+               "is a reflection, so negate the singular vector in U that belongs to "
+               "the smallest singular value",
                {"rotation": lambda U, Vt: U @ Vt}),
     ("mirror-turned-round", "if U V^T is a reflection, your code negates the whole "
-                            "matrix. Negate only the direction of the smallest "
-                            "singular value",
+                            "matrix. Negate only the singular vector in U that "
+                            "belongs to the smallest singular value",
      {"rotation": all_turned}),
     ("largest-turned-round", "your code corrects a reflection by negating the "
-                             "direction of the largest singular value. Negate the "
-                             "direction of the smallest one, which changes the fit "
-                             "least", {"rotation": lambda U, Vt: U @ np.diag(
+                             "singular vector of the largest singular value. Negate "
+                             "the singular vector of the smallest one instead, "
+                             "because this increases the error least",
+     {"rotation": lambda U, Vt: U @ np.diag(
          [np.linalg.det(U @ Vt), 1, 1]) @ Vt}),
     ("column-turned-round", "your code corrects a reflection by negating the third "
                             "column of V^T. Negate the third row, because the "
                             "singular vectors are the rows of V^T",
      {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
-    ("always-turned-round", "your code always negates the third direction. Negate it "
-                            "only if U V^T is a reflection",
+    ("always-turned-round", "your code always negates the third singular vector. "
+                            "Negate it only if U V^T is a reflection",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
     ("R-transposed", "your rotation is transposed, so it maps the target to the "
-                     "source. It should be U V^T from the SVD of target^T source",
+                     "source. It should be U V^T, from the SVD of target^T source "
+                     "with both clouds centred",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
     ("worst-fit", "your R is the rotation with the largest sum of squared distances, "
                   "not the smallest. Either a sign is wrong, or your eigenvector "
@@ -95,13 +97,13 @@ for slug, says, other in (
                     "Subtract them, because otherwise the translation changes the "
                     "rotation",
      {"centre": lambda X: np.zeros(3)}),
-    ("one-number-for-the-centre", "your centroid is one mean of all coordinates "
-                                  "together. Use axis=0 for one mean per coordinate "
-                                  "instead",
+    ("one-number-for-the-centre", "your centroid is a single number, the mean of all "
+                                  "coordinates. Use axis=0 to compute one mean per "
+                                  "coordinate",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
     ("about-the-first", "your code subtracts the first points instead of the "
                         "centroids. Subtract the centroids, because otherwise the "
-                        "noise of one pair changes the rotation",
+                        "noise of the first pair affects all other pairs",
      {"centre": lambda X: X[0]}),
     ("scaled", "your R contains a scale factor. A rigid motion preserves distances, so "
      "R should be a pure rotation",
@@ -118,7 +120,7 @@ def _(source, target):
     """t-of-the-first: your translation fits only the first pair. Use the centroids
       instead of the first points
     first-for-centre: your code uses the first points instead of the centroids. Use the
-      centroids, because otherwise the noise of one pair changes the fit
+      centroids, because otherwise the noise of the first pair affects all other pairs
     affine: your function fits an affine map by least squares. The matrix of an affine
       map need not be a rotation, so fit a rotation and a translation
     """

@@ -31,12 +31,14 @@ def covariance(
 
 for slug, says, other in (
     ("mean-over-points", "your code multiplies the result by the number of pixel "
-                         "coordinates, or it divides J^T J by this number. Each "
-                         "additional pixel should reduce the covariance",
+                         "coordinates, or it divides J^T J by this number. Omit this "
+                         "factor, because each additional pixel should reduce the "
+                         "covariance",
                          {"share": lambda n: n}),
     ("mean-over-points", "your code multiplies the result by the number of points, or "
-                         "it divides J^T J by this number. Each additional point "
-                         "should reduce the covariance", {"share": lambda n: n / 2}),
+                         "it divides J^T J by this number. Omit this factor, because "
+                         "each additional point should reduce the covariance",
+     {"share": lambda n: n / 2}),
     ("divided-by-points", "your code divides the result by the number of points. Omit "
                           "this division, because J^T J is already the sum over all "
                           "points",
@@ -71,7 +73,7 @@ def _(J, sigma):
     by-what-is-left: your code divides the result by 2 n - 6 degrees of freedom. Omit
       this division, which belongs to the estimate of an unknown sigma
     each-point-alone: your code adds the covariances of the individual points. Add their
-      information matrices J^T J and invert the sum
+      information matrices instead, and invert the sum
     """
     rows = rows_of(J)
     left = len(rows) - 6

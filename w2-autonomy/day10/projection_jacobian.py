@@ -136,7 +136,7 @@ for slug, says, other in (
     ("rotation-sign", "your columns for omega have the wrong sign. Use -[p], because "
                       "the velocity omega x p is equal to -[p] omega",
      {"twist": lambda p: by_twist(p, 1.0)}),
-    ("camera-moves", "your Jacobian has the opposite sign, as for a moving camera. "
+    ("camera-moves", "your Jacobian has the wrong sign, as for a moving camera. "
                      "Negate it, because in this task the points move and the camera "
                      "does not",
      {"told": np.negative}),

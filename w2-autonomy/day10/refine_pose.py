@@ -112,8 +112,8 @@ for slug, says, other in (
     ("first-order", "your code replaces the exponential by I + [xi], so R is no "
                     "longer a rotation. Use the matrix exponential instead",
      {"move": first_order}),
-    ("gradient", "your code uses J^T r as the step, which is a gradient step with the "
-                 "residual r. A Gauss-Newton step is the least-squares solution of J "
+    ("gradient", "your code uses J^T r as the step, where r is the residual. Use the "
+                 "Gauss-Newton step instead, which is the least-squares solution of J "
                  "xi = r",
      {"solve": downhill}),
     ("each-from-the-guess", "your code applies each step to the guess. Apply each "

@@ -69,7 +69,7 @@ def _(p, half_extents):
     """zero-inside: inside the box, your code returns 0. Return minus the distance to
       the nearest face instead
     inside-positive: inside the box, your result is positive. It should be negative
-    sign: your result has the opposite sign. The distance should be positive outside the
+    sign: your result has the wrong sign. The distance should be positive outside the
       box
     largest-outside: outside the box, your code uses only the largest excess beyond a
       face. Near an edge or a corner, take the norm of all positive excesses

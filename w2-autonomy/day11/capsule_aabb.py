@@ -54,7 +54,7 @@ def _(a0, a1, r):
       radius from the lower corner and add it to the upper corner
     radius-added-to-both: your code adds the radius to both corners. Subtract the radius
       from the lower corner instead
-    flat-ends: your box is the box of a cylinder with flat ends. A capsule ends in
+    flat-ends: your result is the box of a cylinder with flat ends. A capsule ends in
       spheres, which extend by r along every axis
     corners-not-sorted: your code uses a0 and a1 as the lower and the upper corner. Take
       the minimum and the maximum of each coordinate
@@ -67,10 +67,10 @@ def _(a0, a1, r):
       lower and the upper corner instead
     half-not-halved: your code uses |a1 - a0| as the extent on each side of the centre.
       Use |a1 - a0| / 2 instead
-    longest-side: your box is a cube, because your code uses the longest side along
-      every axis. Each axis has its own extent
-    longest-side 2: your box extends from the midpoint by r plus the length of the axis
-      in x, y and z. Each coordinate has its own extent, r + |a1 - a0| / 2
+    longest-side: your code uses the longest side along every axis, so the box is a
+      cube. Use the extent along each axis instead
+    longest-side 2: your code uses r plus the length of the axis as the half extent in
+      x, y and z. Use r + |a1 - a0| / 2 for each coordinate instead
     around-one-end: your code uses only a0, so the result is the box of a sphere around
       a0. Use a1 as well
     around-one-end 2: your code uses only a1, so the result is the box of a sphere

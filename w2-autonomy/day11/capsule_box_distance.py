@@ -155,10 +155,10 @@ def _(a0, a1, r, T_world_box, half_extents):
     pose-not-inverted: your code applies T_world_box, which maps from the box frame to
       the world frame. Apply its inverse
     place-forgotten: your code rotates the ends but does not translate them. Subtract
-      the position of the box first
+      the position of the box before the rotation
     turned-then-moved: your code subtracts the position of the box after the rotation.
       Subtract it first: R^T (x - t)
-    t-added: your code adds the position of the box. Subtract it instead, R^T (x - t)
+    t-added: your code adds the position of the box. Subtract it instead: R^T (x - t)
     radius-forgotten: your code omits the radius, so the result is the distance from the
       axis to the box. Subtract r
     radius-added: your code adds the radius. Subtract the radius instead
@@ -178,7 +178,7 @@ def _(a0, a1, r, T_world_box, half_extents):
       interval [0, 1]
     never-negative: your code returns 0 for shapes that overlap. Return the negative
       value, because their signed distance is negative
-    sign: your result has the opposite sign. The distance should be positive for shapes
+    sign: your result has the wrong sign. The distance should be positive for shapes
       that do not overlap
     outside-only: for an axis that enters the box, your code replaces the negative value
       of `box_sdf` by 0. Keep the negative value, then subtract r
@@ -194,8 +194,8 @@ def _(a0, a1, r, T_world_box, half_extents):
       with R^T (x - t)
     radius-off-the-box: your code reduces the box by the radius. Subtract the radius
       from the distance instead
-    size-of-the-depth: your code uses the absolute value of the depth for an axis inside
-      the box. Keep the sign of the depth
+    size-of-the-depth: your code takes the absolute value of `box_sdf` for an axis
+      inside the box. Keep the negative value
     size-of-the-distance: your code takes the absolute value of the result. The distance
       should be negative for shapes that overlap
     radius-off-the-box 2: your code reduces the box by the radius. Subtract the radius

@@ -103,8 +103,8 @@ def _(a0, a1, ra, b0, b1, rb):
       the axes. Take the square root before you subtract the radii
     squared 2: your code subtracts the squared sum of the radii from the squared
       distance. Subtract the radii from the distance itself
-    sign: your result has the opposite sign. The distance should be positive for
-      capsules that do not overlap
+    sign: your result has the wrong sign. The distance should be positive for capsules
+      that do not overlap
     of-middles: your code uses the midpoints of the axes as the closest points. Use the
       points of task 11.1, because the closest points can be anywhere on the axes
     of-starts: your code uses the starts of the axes as the closest points. Use the
@@ -156,8 +156,8 @@ def _(a0, a1, ra, b0, b1, rb):
     axes-inside: your code returns minus the distance between the axes for capsules that
       overlap. Return the distance between the axes minus both radii
     ends-only: your code assumes that one of the closest points is an end. Use the s and
-      t of the infinite lines where both lie in [0, 1], because both points can lie
-      between the ends
+      t of the infinite lines if both lie in [0, 1], because both points can lie between
+      the ends
     ends-only 2: your code tests only the ends of the first axis. Use the points of task
       11.1, because the closest point of this axis can lie between the ends
     ends-only 3: your code tests only the ends of the second axis. Use the points of
@@ -173,7 +173,7 @@ def _(a0, a1, ra, b0, b1, rb):
     lines: your code treats the axes as infinite lines. Clamp the closest points to the
       axes
     grown-axes: your code extends each axis by the radius at both ends and also
-      subtracts the radius. Only subtract the radius
+      subtracts the radius. Do not extend the axes, and subtract the radius only
     starts-and-ends: your code uses the segments from a0 to b0 and from a1 to b1. The
       axes run from a0 to a1 and from b0 to b1
     in-the-plane: your code does not use z in the distance. Use all three coordinates

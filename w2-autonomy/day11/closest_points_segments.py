@@ -37,15 +37,15 @@ row = Row(
         HeldOut(
             "point-not-handled",
             "Your result is wrong if a segment is a point, that is, if its length is "
-            "0. Use any value for the parameter of this segment, so that 0 / 0 does "
-            "not occur, and clamp the parameter of the other segment.",
+            "0. Use any value for the parameter of this segment instead of 0 / 0, and "
+            "clamp the parameter of the other segment.",
             lambda rng: pairs.arrays(pairs.POINTS),
         ),
         HeldOut(
             "size-absolute",
-            "Your result is correct for lengths of metres, but not of millimetres. "
-            "The unit of a c - b b is a length to the fourth power. Compare a c - b b "
-            "with a fraction of a c, not with a constant.",
+            "Your result is correct for segments of about 1 m, but not for segments "
+            "of a few millimetres. The unit of a c - b b is m^4, so compare it with a "
+            "fraction of a c and not with a constant.",
             lambda rng: [
                 tuple(0.002 * x for x in pairs.segments(rng, one))
                 for one in ("inside", "an end", "inside", "an end")
@@ -73,8 +73,8 @@ def _(rng):
 def _(a0, a1, b0, b1):
     """not-clamped: your code does not clamp s and t. Clamp them to [0, 1], because
       otherwise the points can lie beyond the ends of the segments
-    clamped-apart: your code clamps s and t independently. Clamping one of them changes
-      the optimal value of the other, so compute the other one again
+    clamped-apart: your code clamps s and t independently. If you clamp one of them, the
+      optimal value of the other changes, so compute the other one again
     s-not-again: your code does not recompute s after it clamps t. Compute s again,
       because the optimal s depends on t
     s-not-again 2: your code does not recompute t after it clamps s. Compute t again,
@@ -90,8 +90,8 @@ def _(a0, a1, b0, b1):
     cut-above-only: your code clamps s and t only at 1. Clamp them at 0 too, because
       otherwise the points can lie before the start points
     ends-only: your code assumes that one of the closest points is an end. Use the s and
-      t of the infinite lines where both lie in [0, 1], because both points can lie
-      between the ends
+      t of the infinite lines if both lie in [0, 1], because both points can lie between
+      the ends
     end-pairs: your code returns the nearest pair of ends. Compute s and t instead,
       because the closest points can lie between the ends
     end-pairs 2: your code uses the end of the first segment that is nearest to the
@@ -150,10 +150,10 @@ def _(a0, a1, b0, b1):
       instead
     start-where-cut 4: your code sets s and t outside [0, 1] to 0. Clamp them, so that a
       value above 1 becomes 1
-    one-end-cut: your code recomputes s where t is below 0, but not where t is above 1.
+    one-end-cut: your code recomputes s if t is below 0, but not if t is above 1.
       Recompute s in both cases
-    one-end-cut 2: your code recomputes s where t is above 1, but not where t is below
-      0. Recompute s in both cases
+    one-end-cut 2: your code recomputes s if t is above 1, but not if t is below 0.
+      Recompute s in both cases
     t-one-end-cut: your code clamps t only at 1. Clamp it at 0 too, because otherwise
       the point of the second segment can lie before b0
     t-one-end-cut 2: your code clamps t only at 0. Clamp it at 1 too, because otherwise

@@ -138,7 +138,7 @@ def _(s, distance, delta_q, radii):
     of-what-is-left: your code multiplies the step by 1 - s. The argument delta_q
       belongs to the whole motion, so omit this factor
     of-what-is-left 2: your code divides the step by 1 - s. The argument delta_q belongs
-      to the whole motion, so omit this factor
+      to the whole motion, so omit this division
     half-a-step: your step is half as long as the bound allows. Use the whole step
     twice-a-step: your step is twice as long as the bound allows, so the arm can hit the
       obstacle. Divide the distance by the bound itself
@@ -150,10 +150,10 @@ def _(s, distance, delta_q, radii):
       rest of the motion is collision-free
     standing-still 2: if no joint moves, your code returns s. Return 1, because the rest
       of the motion is collision-free
-    goes-back-inside: if the arm is already in contact, your code moves back. Return s
-      itself
-    goes-on-inside: if the arm is already in contact, your code moves on. Return s
-      itself
+    goes-back-inside: if the arm is already in contact, your code returns a value below
+      s. Return s itself
+    goes-on-inside: if the arm is already in contact, your code returns a value above s.
+      Return s itself
     stops-inside: if the arm is already in contact, your code returns 1. Return s itself
     stops-inside 2: if the arm is already in contact, your code returns 0. Return s
       itself

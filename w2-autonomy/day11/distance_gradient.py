@@ -81,8 +81,8 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p, o, link):
-    """towards-the-obstacle: your gradient has the opposite sign. The distance increases
-      if p moves along p - o, so use the unit vector of p - o
+    """towards-the-obstacle: your gradient has the wrong sign. The distance increases if
+      p moves along p - o, so use the unit vector along p - o
     columns-behind-kept: your entries for the joints distal to the link are not 0. Set
       them to 0, because these joints do not move the link
     own-joint-left-out: your entry for the link's own joint is 0. Include this joint,

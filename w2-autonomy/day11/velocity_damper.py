@@ -126,10 +126,10 @@ def _(qd, grad, distance, gain):
       it by grad . grad instead
     pushed-in: your correction has the wrong sign, so the arm moves nearer to the
       obstacle. Change qd along +grad, because the distance increases in this direction
-    all-joints-slowed: your code scales all joints by one factor. Change only the
-      component along grad
-    all-joints-slowed 2: your code scales all joints by one factor. Change only the
-      component along grad
+    all-joints-slowed: your code scales all joint velocities by one factor. Change only
+      the component along grad
+    all-joints-slowed 2: your code scales all joint velocities by one factor. Change
+      only the component along grad
     stops-dead: your code stops the arm if it approaches the obstacle too fast. Keep the
       part of the velocity that is allowed
     stops-dead 2: your code stops the arm if it approaches the obstacle too fast, and
@@ -155,7 +155,8 @@ def _(qd, grad, distance, gain):
     joint-by-joint 2: your code clamps each joint velocity to the bound. Apply the bound
       to grad . qd instead, because the bound is a velocity in m/s
     largest-joint-only: your code changes only the joint with the largest entry of grad.
-      Change qd along grad instead, because this change is the smallest
+      Change qd along grad instead, because this is the smallest change that satisfies
+      the bound
     slope-unit: your code normalises grad in grad . qd, but not in the bound. Use grad
       itself in both
     only-inside: your code limits the velocity only if the distance is negative. Limit
@@ -166,33 +167,35 @@ def _(qd, grad, distance, gain):
     left-where-it-overlaps: if the distance is not positive, your code returns qd. Apply
       the correction, which moves the arm away from the obstacle
     stopped-where-it-overlaps: if the distance is not positive, your code returns 0.
-      Keep the part of the velocity that leads away
+      Keep the part of the velocity that moves the arm away
     no-way-out: your code clamps a negative distance to 0, so an arm that overlaps the
-      obstacle is not moved away. Use the negative distance
-    coming-near: your code changes every velocity towards the obstacle. Keep an approach
-      that the bound allows
+      obstacle does not move away. Use the negative distance
+    coming-near: your code changes every velocity towards the obstacle. Leave an
+      approach unchanged if the bound allows it
     by-the-sizes: your code compares absolute values, so it also changes a fast motion
       away from the obstacle. Keep the signs of grad . qd and of the bound
     half-of-it: your code adds only half of the correction. Add the whole correction
     twice-of-it: your code adds twice the correction. Add the correction only once
     one-joint-only: your code changes only the first joint. Change qd along grad
-      instead, because this change is the smallest
+      instead, because this is the smallest change that satisfies the bound
     one-joint-only 2: your code changes only the joint with the fastest approach. Change
-      qd along grad instead, because this change is the smallest
+      qd along grad instead, because this is the smallest change that satisfies the
+      bound
     alike: your code gives every joint the same correction. Make the correction
       proportional to grad
     by-signs: your code gives every joint a correction of the same size. Make the
       correction proportional to grad
     a-seventh-each: your code gives each joint a seventh of the correction. Make the
       correction proportional to grad
-    divided-by-the-sum: your code divides the correction by the sum of grad. Divide it
-      by grad . grad instead
+    divided-by-the-sum: your code divides the correction by the sum of the entries of
+      grad. Divide it by grad . grad instead
     divided-by-the-largest: your code divides the correction by the square of the
       largest entry of grad. Divide it by grad . grad instead
     divided-by-qd: your code divides the correction by qd . qd. Divide it by grad . grad
       instead
     those-that-come-near: your code changes only joints that approach the obstacle.
-      Change qd along the whole grad instead, because this change is the smallest
+      Change qd along the whole grad instead, because this is the smallest change that
+      satisfies the bound
     those-that-come-near 2: your code stops joints that approach the obstacle. Keep the
       part of the velocity that is allowed
     rate-added: your code adds grad . qd to the bound in the correction. Subtract grad .

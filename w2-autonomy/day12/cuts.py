@@ -98,8 +98,9 @@ OPTIONS = [
     Option("hit-for-free", "your code inverts the test, so it applies shortcuts that "
                            "are blocked. Apply a shortcut if its edge is free",
            {"check": lambda a, b, world: not edge_free(a, b, world)}),
-    Option("only-the-ends-checked", "your code tests only the two points. Test the "
-                                    "edge between these points", {"check": _ends_free}),
+    Option("only-the-ends-checked", "your code tests only the points i and j. Test "
+                                    "the edge between these points",
+     {"check": _ends_free}),
     Option("middle-checked", "your code tests only the midpoint of the edge. Test "
                              "the whole edge",
            {"check": _middle_free}),
@@ -120,16 +121,19 @@ OPTIONS = [
     Option("end-to-end-checked", "your code tests the edge from the start to the end "
                                  "of the path. Test the edge from i to j",
            {"edge": lambda i, j: (0, -1)}),
-    *(Option("indices-of-the-first-path", f"your pairs refer to "
-                                          f"rows of the original "
-                                          f"path{how}. They should "
-                                          f"refer to the current "
-                                          f"path", {"fixed": fixed})
-      for fixed, how in (("mask", ""), ("clamped", ", but the indices are used in "
-                                                   "the current path"),
-                         ("skipped", ", but the indices are used in the current "
-                                     "path if they still exist"),
-                         ("present", ", if both rows still exist"))),
+    *(Option("indices-of-the-first-path", f"your code {does} instead",
+             {"fixed": fixed})
+      for fixed, does in (
+        ("mask", "takes the two rows of each pair from the original path. Use the "
+                 "rows of the current path"),
+        ("clamped", "computes the indices with the length of the original path, but "
+                    "it uses them in the current path. Use the length of the current "
+                    "path"),
+        ("skipped", "computes the indices with the length of the original path and "
+                    "uses them in the current path if they still exist. Use the "
+                    "length of the current path"),
+        ("present", "takes the two rows of each pair from the original path if both "
+                    "rows still exist. Use the rows of the current path"))),
     *(Option(slug, f"{says}. Use int(u m)", {"places": _placed(how, more)})
       for slug, says, how, more in (
         ("rounded", "your code rounds u m to the nearest integer", round, 0),
@@ -138,9 +142,9 @@ OPTIONS = [
         ("rounded-up", "your code rounds u (m - 1) up", lambda x: int(np.ceil(x)), -1),
         ("of-m-minus-one", "your code multiplies u by m - 1", int, -1),
         ("of-m-plus-one", "your code multiplies u by m + 1", int, 1))),
-    Option("end-never-named", "your code uses m - 1 for one row and shifts the other "
-                              "row by one. Use int(u m) "
-                              "for both", {"places": lambda pair, m: [
+    Option("end-never-named", "your code uses int(u (m - 1)) for both rows and adds 1 "
+                              "to the later row. Use int(u m) for both",
+           {"places": lambda pair, m: [
                int(min(pair) * (m - 1)), int(max(pair) * (m - 1)) + 1]}),
     Option("two-apart-left", "your code skips rows that are two apart. Test these "
                              "rows too, because the point between them can be removed",
@@ -159,7 +163,7 @@ OPTIONS = [
            {"used": lambda pairs: pairs[:-1]}),
     Option("first-pair-only", "your code uses only the first pair. Use all pairs",
            {"used": lambda pairs: pairs[:1]}),
-    Option("pairs-twice", "your code uses all pairs a second time. Use each pair once",
+    Option("pairs-twice", "your code uses all pairs twice. Use each pair once",
            {"used": lambda pairs: np.concatenate([pairs, pairs])}),
     Option("first-cut-only", "your code stops after the first shortcut. Try all "
                              "pairs",
@@ -220,24 +224,19 @@ def _no_cut(mine: Array, path: Array, world: Array, where: str) -> Finding | Non
     """Return what keeps a path from being a cut of another, or None."""
     rows = [np.flatnonzero(np.abs(path - x).max(axis=1) < NEAR) for x in mine]
     if odd := [i for i, row in enumerate(rows) if not len(row)]:
-        says = f"Point {odd[0]} of your result is not a point of the path, {where}. "
+        says = f"Point {odd[0]} of your result {where} is not a point of the path. "
         return Finding("not-its-points", f"{says}Shortcuts remove points and add none.")
     at = [int(row[0]) for row in rows]
     if not at or at[0] != 0:
-        return Finding(
-            "start-lost", f"The first point of the path is missing, {where}."
-        )
+        return Finding("start-lost", f"The first point of the path is missing {where}.")
     if at[-1] != len(path) - 1:
-        return Finding("end-lost", f"The last point of the path is missing, {where}.")
+        return Finding("end-lost", f"The last point of the path is missing {where}.")
     if any(j <= i for i, j in pairwise(at)):
         return Finding(
-            "other-order", f"Some points are repeated or in another order, {where}."
+            "other-order", f"Some points are repeated or in the wrong order {where}."
         )
     for i, j in pairwise(at):
         if j > i + 1 and not planning.edge_free(path[i], path[j], world):
-            says = (
-                f"Your code connects row {i} of the path with row {j}, {where}, "
-                "but the "
-            )
+            says = f"Your code connects row {i} of the path with row {j} {where}. The "
             return Finding("cut-not-free", f"{says}edge between the two is not free.")
     return None

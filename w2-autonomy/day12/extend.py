@@ -142,8 +142,10 @@ def _(tree, sample, step, world):
     point-only: your code tests only the new point. Test the whole edge to the new point
     node-only: your code tests only the node from which the tree grows. Test the whole
       edge
-    always-free: your code does not test the edge, so it reports every edge as free
-    never-free: your code reports that no edge is free. Test the edge to the new point
+    always-free: your code reports every edge as free. Test the edge from the nearest
+      node to the new point
+    never-free: your code reports every edge as blocked. Test the edge from the nearest
+      node to the new point
     edge-from-the-root: your code tests the edge from the root to the new point. Test
       the edge from the nearest node to the new point instead
     edge-to-the-sample: your code tests the edge to the sample. Test only the edge to
@@ -177,13 +179,14 @@ def _(tree, sample, step, world):
     root-to-the-sample: your code tests the edge from the root to the sample. Test the
       edge from the nearest node to the new point
     standing-is-blocked: if the sample equals a node, your code reports a blocked edge.
-      An edge of length 0 is free if the node is free
+      Report this edge as free if the node is free
     own-is-free: your code does not call the method `edge_free` of a world that has one,
       so it reports every edge of this world as free. Call this method
     own-is-blocked: your code does not call the method `edge_free` of a world that has
       one, so it reports every edge of this world as blocked. Call this method
     free-if-reached: your code reports a free edge only if the step reaches the sample.
-      Report the result of the test for every step, because each step is an edge
+      Return the result of the test for every new edge, even if it does not reach the
+      sample
     reached-is-free: if the step reaches the sample, your code does not test the edge.
       Test every edge
     ends-only: your code tests only the two ends of the edge. Test the points between

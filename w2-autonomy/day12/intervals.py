@@ -88,9 +88,9 @@ OPTIONS = [
          lambda k, n: (n - k) / n),
     ]),
     *_each("moved", [
-        (slug, f"your centre is shifted by {says}. Shift it by z^2 / (2 n)", of)
+        (slug, f"your code adds {says} to k / n in the centre. Add z^2 / (2 n)", of)
         for slug, says, of in (
-            ("centre-not-moved", "0", lambda z, n: 0.0),
+            ("centre-not-moved", "nothing", lambda z, n: 0.0),
             ("two-n", "z^2 / n", lambda z, n: z**2 / n),
             ("z-for-z2", "z / (2 n)", lambda z, n: z / (2 * n)),
             ("z-for-z2", "z / n", lambda z, n: z / n),
@@ -138,24 +138,27 @@ OPTIONS = [
              lambda z, n: -(z**2) / (4 * n**2)))
     ]),
     *_each("below", [
-        (slug, f"your code divides the centre and the half-width by {says}. "
-               f"Divide both by 1 + z^2 / n", of)
-        for slug, says, of in (
-            ("not-divided", "1", lambda z, n: 1.0),
-            ("n-times", "n + z^2", lambda z, n: n + z**2),
-            ("two-n-below", "1 + z^2 / (2 n)", lambda z, n: 1 + z**2 / (2 * n)),
-            ("z-below", "1 + z / n", lambda z, n: 1 + z / n),
-            ("n2-below", "1 + z^2 / n^2", lambda z, n: 1 + z**2 / n**2),
-            ("z2-alone", "1 + z^2", lambda z, n: 1 + z**2))
+        (slug, f"your code {does}. Divide both by 1 + z^2 / n", of)
+        for slug, does, of in (
+            ("not-divided", "does not divide the centre and the half-width",
+             lambda z, n: 1.0),
+            *((slug, f"divides the centre and the half-width by {says}", of)
+              for slug, says, of in (
+                ("n-times", "n + z^2", lambda z, n: n + z**2),
+                ("two-n-below", "1 + z^2 / (2 n)", lambda z, n: 1 + z**2 / (2 * n)),
+                ("z-below", "1 + z / n", lambda z, n: 1 + z / n),
+                ("n2-below", "1 + z^2 / n^2", lambda z, n: 1 + z**2 / n**2),
+                ("z2-alone", "1 + z^2", lambda z, n: 1 + z**2))))
     ]),
     *_each("below_width", [
-        (slug, f"your code divides the half-width by {says}. Divide the centre "
-               f"and the half-width by 1 + z^2 / n", of)
-        for slug, says, of in (
-            ("width-not-divided", "1", lambda z, n: 1.0),
-            ("width-by-n", "n", lambda z, n: float(n)),
-            ("usual-width", "1 + z^2 / n", lambda z, n: 1 + z**2 / n),
-            ("root-below", "the root of 1 + z^2 / n",
+        (slug, f"your code {does}. Divide the centre and the half-width by 1 + z^2 / n",
+         of)
+        for slug, does, of in (
+            ("width-not-divided", "does not divide the half-width", lambda z, n: 1.0),
+            ("width-by-n", "divides the half-width by n", lambda z, n: float(n)),
+            ("usual-width", "divides only the half-width by 1 + z^2 / n",
+             lambda z, n: 1 + z**2 / n),
+            ("root-below", "divides the half-width by the root of 1 + z^2 / n",
              lambda z, n: np.sqrt(1 + z**2 / n)))
     ]),
     *_each("around", [
@@ -242,17 +245,14 @@ def _of_z(trials: Sequence[Asked]) -> Finding | None:
             if 0 < k < n:
                 wald.append(abs(x - p) / np.sqrt(p * (1 - p) / n))
     kinds = (
-        ("in Wilson's formula", wilson),
-        (
-            "in Wald's formula, p +- z sqrt(p (1 - p) / n), which is another interval",
-            wald,
-        ),
+        ("Your code uses Wilson's formula", wilson),
+        ("Your code uses Wald's formula p +- z sqrt(p (1 - p) / n)", wald),
     )
     for how, some in kinds:
         zs = np.array(some)[np.isfinite(some)]
         if len(zs) > 5 and np.ptp(zs) < 1e-6 and abs(zs[0] - Z) > 1e-5 and zs[0] > 0:
-            says = f"Your z is {zs[0]:.4g} in every call, {how}. A 95 % interval needs "
-            return Finding("another-z", f"{says}z = 1.96.")
+            says = f"{how} with z = {zs[0]:.4g}. Use Wilson's formula with z = 1.96, "
+            return Finding("another-z", f"{says}which gives a 95 % interval.")
     pairs = [z for z in (_both_z(one) for one in trials) if z]
     if len(pairs) > 5 and all(abs(low - high) < 1e-6 for low, high in pairs):
         least, most = min(pairs)[0], max(pairs)[0]

@@ -157,8 +157,8 @@ OPTIONS = [
          lambda n: 2 / (n + 2)),
         ("ds-forgotten", "your code omits ds, or your ds is 1. It should be 1 / N",
          lambda n: 2.0),
-        ("ds-forgotten", "your code omits the factor 2 ds, or this factor is 1. The "
-                         "step ds should be 1 / N",
+        ("ds-forgotten", "your code omits the factor of 2 ds, or this factor is 1. "
+                         "The step ds should be 1 / N",
          lambda n: 1.0))),
     Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2. Its argument "
                          "should be sd",
@@ -263,8 +263,8 @@ OPTIONS = [
                               "rest at such a point, so return zeros",
          lambda G, limits: False),
         ("all-points-too-heavy", "your code returns zeros only if gravity exceeds a "
-                                 "torque limit at every point. One such point is "
-                                 "enough, so test whether there is any",
+                                 "torque limit at every point. Return zeros if "
+                                 "gravity exceeds a limit at any point",
          lambda G, limits: np.all(np.abs(G) > limits)),
         ("first-point-alone", "your code compares gravity with the torque limits "
                               "only at the first point. Compare it at every point",
@@ -272,8 +272,8 @@ OPTIONS = [
         ("ends-alone", "your code compares gravity with the torque limits only at "
                        "the two ends. Compare it at every point",
          lambda G, limits: np.any(np.abs(G[[0, -1]]) > limits)),
-        ("gravity-with-sign", "your code compares gravity with the torque limits "
-                              "without taking its absolute value. Take it, because "
+        ("gravity-with-sign", "your code compares gravity itself with the torque "
+                              "limits. Compare its absolute value instead, because "
                               "the limits also apply to negative torques",
          lambda G, limits: np.any(limits < G)))),
     *(Option(f"without-{what}", f"your backward pass does not test whether {says}. Add "
@@ -281,7 +281,7 @@ OPTIONS = [
              {"without": (what,)}, alone=True) for what, says in (
         ("allowed", "any sdd is allowed at this speed (low <= high)"),
         ("after", "the motion can slow down to the maximum of the next point"),
-        ("turning", "sd^2 stays above 0 with the largest sdd"))),
+        ("turning", "the largest sdd keeps sd^2 at 0 or above"))),
     Option("most-of-the-point-before", "your code limits sd^2 at i + 1 by the maximum "
                                        "at i in the forward pass. Use the maximum at "
                                        "i + 1 instead", {"kept": 0}),
@@ -300,7 +300,7 @@ OPTIONS = [
                a[:1], b[:1], g[:1], limits[:1], sd)}),
     *(Option(slug, says, {"out": of}) for slug, says, of in (
         ("root", "your code returns sd. Return sd^2 instead", np.sqrt),
-        ("squared", "your code returns sd^4. Return sd^2", np.square),
+        ("squared", "your code returns sd^4. Return sd^2 instead", np.square),
         ("end-to-start", "your motion runs from the end to the start. Reverse it",
          lambda x: x[::-1]),
         ("stopped-at-the-end", "your code sets the last entry to 0 only after the "
@@ -325,7 +325,7 @@ def of_a_motion(case: Case) -> Finding | None:
             continue
         if broken := _broken(one):
             slug, says = broken
-            return Finding(slug, f"In call {k} of {len(asked)} {says}")
+            return Finding(slug, f"In call {k} of {len(asked)}, {says}")
     slow = _slow(asked)
     return Finding("slower-than-possible", slow) if slow else None
 
@@ -369,8 +369,8 @@ def _slow(asked: Sequence[Asked]) -> str:
             i = int(np.argmax(right - mine))
             if right[i] > mine[i] + NEAR:
                 return (
-                    f"In call {k} of {len(asked)} your motion is within all limits but "
-                    f"slower than possible. At point {i} sd^2 is {mine[i]:.3f}, but "
-                    f"{right[i]:.3f} is possible."
+                    f"In call {k} of {len(asked)}, your motion is within all limits, "
+                    f"but it is slower than possible. At point {i}, sd^2 is "
+                    f"{mine[i]:.3f}, but {right[i]:.3f} is possible."
                 )
     return ""

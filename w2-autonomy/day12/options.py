@@ -101,12 +101,14 @@ def together(
     alone = {one.says: one for one in options if gives(one)}
     if alone:
         some = list(alone.values())[:2]
-        says = "; or ".join(one.says for one in some)
-        either = "either " if len(some) > 1 else ""
+        says = some[0].says
+        if len(some) > 1:
+            says = f"your code has one of two mistakes. The first possibility: {says}. "
+            says += f"The second possibility: {some[1].says}"
         this = "either" if len(some) > 1 else "this"
         how = f"The reference solution with {this} mistake "
         how += "gives the same output as your code."
-        text = f"{either}{says}. {how}"
+        text = f"{says}. {how}"
         return Finding(some[0].slug, capitalised(text))
     right = usual(calls[first])
     each = {id(one): _made(make, calls[first], one.how) for one in options}

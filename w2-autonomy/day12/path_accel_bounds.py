@@ -259,12 +259,12 @@ def _(a, b, c, limits, sd):
     held-by-speed-alone: for a joint with a = 0, your code compares only b sd^2 with the
       limit. Compare b sd^2 + c with the limit instead
     held-with-sign: for a joint with a = 0, your code compares the torque without its
-      absolute value. Take the absolute value, because the limit also applies to
-      negative torques
+      absolute value. Compare the absolute value instead, because the limit also applies
+      to negative torques
     all-have-to-hold: your code compares b sd^2 + c with the limit for joints that move
       too. This test is only for joints with a = 0
-    any-that-holds: if several joints have a = 0, your code accepts the speed if at
-      least one of them is within its limit. All of them must be within their limits
+    any-that-holds: your code accepts the speed if at least one joint with a = 0 is
+      within its limit. All joints with a = 0 must be within their limits
     small-is-zero: your code treats a small `a` as 0. Compare `a` with 0 exactly,
       because a joint with a small `a` still limits sdd
     small-is-zero 2: your code treats a small `a` as 0. Compare `a` with 0 exactly,

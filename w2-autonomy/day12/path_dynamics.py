@@ -82,17 +82,17 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     coriolis-times-dq: your code multiplies the Coriolis torque by dq_ds. Use `coriolis`
       unchanged, because it is already the torque at qd = dq_ds
     dq-squared: your b contains dq_ds^2. It should contain d2q_ds2
-    solved: your code solves with M. Multiply by M, because M maps accelerations to
-      torques
+    solved: your code multiplies by the inverse of M. Multiply by M itself, because M
+      maps accelerations to torques
     coriolis-in-g: your code adds the Coriolis torque to c. Add it to b, because it is
       multiplied by sd^2
     coriolis-in-a: your code adds the Coriolis torque to `a`. Add it to b, because it is
       multiplied by sd^2
-    rows-summed: your code sums each row of M and multiplies the sum by one joint's
-      rate. Use the matrix product instead
+    rows-summed: your code multiplies the sum of each row of M by the entry of dq_ds or
+      d2q_ds2 for that joint. Use the matrix product with M instead
     trace: your code multiplies by the trace of M. Use the matrix product with M instead
-    first-row: your code multiplies the first row of M entry by entry. Use the matrix
-      product with M instead
+    first-row: your code multiplies only the first row of M, entry by entry. Use the
+      matrix product with M instead
     """
     right = path_dynamics(M, dq_ds, d2q_ds2, coriolis, gravity)
     a, b, g = right

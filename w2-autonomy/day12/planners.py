@@ -257,11 +257,9 @@ OPTIONS = [
     Option("samples-backwards", "your code uses the samples in reverse order. Start "
                                 "with sample 0",
            {"used": lambda some: some[::-1]}),
-    Option("first-sample-left-out", "your code skips the first sample. Does your "
-                                    "loop start one sample too late?",
+    Option("first-sample-left-out", "your code skips the first sample. Use all samples",
            {"used": lambda some: some[1:]}),
-    Option("last-sample-left-out", "your code skips the last sample. Does your loop "
-                                   "end one sample too early?",
+    Option("last-sample-left-out", "your code skips the last sample. Use all samples",
            {"used": lambda some: some[:-1]}),
     Option("not-turned-round", "the start's branch of your path runs from the newest "
                                "node to the root. Reverse this branch",

@@ -97,9 +97,7 @@ def _(rng):
     yield *ends, NONE, np.array([[5e-4, 0.0]]), 1.0  # a sample that is nearly there
 
 
-@row.valid(
-    "Your paths are valid, but they come from another planner than the specified one."
-)
+@row.valid("Your paths are valid, but they do not come from the specified planner.")
 def _(start, goal, world, samples, step, path):
     if not len(path):
         return None  # another planner may need other samples
@@ -144,12 +142,10 @@ def _(start, goal, world, samples, step):
     start-lost: your path does not contain the start. It should begin at the start
     ends-only: your path contains only the start and the goal. Include the nodes of both
       branches
-    first-sample-left-out: your code skips the first sample. Does your loop start one
-      sample too late?
-    last-sample-left-out: your code skips the last sample. Does your loop end one sample
-      too early?
+    first-sample-left-out: your code skips the first sample. Use all samples
+    last-sample-left-out: your code skips the last sample. Use all samples
     straight-tried-first: your code tests the edge from the start to the goal before the
-      first sample. Without samples there should be no path
+      first sample. Omit this test, because there should be no path without samples
     """
     given = (start, goal, world, samples, step)
     right = rrt_connect(*given)

@@ -66,8 +66,8 @@ row.cases({
     "edges that start or end in a disc": edges("end"),
     "edges that cross a disc between their ends": edges("between"),
     "edges that touch a disc": edges("touches"),
-    "free edges that pass a disc nearer than its radius": edges("near"),
-    "free edges farther from every disc": edges("far"),
+    "free edges near a disc": edges("near"),
+    "free edges far from every disc": edges("far"),
     "edges of length 0": edges("point"),
     "worlds without a disc": edges("no disc"),
 })  # fmt: skip
@@ -218,8 +218,8 @@ def _(a, b, discs):
       Clamp it at 0 as well, because the edge begins at `a`
     only-one-end-cut 2: your code clamps the parameter of the nearest point only at 0.
       Clamp it at 1 as well, because the edge ends at `b`
-    ends-only: your code tests only the two ends. Test the whole edge, because it can
-      cross a disc between them
+    ends-only: your code tests only the two ends. Test the whole edge, because the edge
+      can cross a disc between its ends
     new-end-only: your code tests only the end `b`. Test the whole edge
     start-only: your code tests only the start `a`. Test the whole edge
     middle-only: your code tests only the midpoint. Test the whole edge
@@ -254,7 +254,7 @@ def _(a, b, discs):
     all-must-hit: your code reports the edge as free as soon as it misses one disc.
       Report it as free only if it misses every disc
     all-must-hit 2: your code reports the edge as free only if the edge misses at least
-      one disc. The edge must miss every disc, so it is free if there is no disc
+      one disc. Report it as free if it misses every disc, and also if there is no disc
     squared-for-plain: your code compares the squared distance with the radius. Compare
       it with the squared radius instead
     plain-for-squared: your code compares the distance with the squared radius. Compare

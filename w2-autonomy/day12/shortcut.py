@@ -109,8 +109,7 @@ def _blocked(path, world, pairs):
 
 
 @row.valid(
-    "Your paths are valid and shorter, but your code makes other shortcuts than "
-    "the specified ones."
+    "Your paths are valid and shorter, but the specified method makes other shortcuts."
 )
 def _(path, world, pairs, answer):
     at = [int(np.argmin(np.abs(path - x).max(axis=1))) for x in answer]
@@ -128,13 +127,14 @@ def _(path, world, pairs):
       only if this edge is free
     one-node-short: your code removes point j too. Keep it, because the tested edge ends
       at point j
-    one-node-short 2: your code removes point i too. Keep path[: i + 1]
+    one-node-short 2: your code removes point i too. Keep it, because the tested edge
+      begins at point i
     one-too-many: your code keeps the point before j. Remove all points between i and j
     end-lost: each of your shortcuts also removes the last point of the path. Keep the
       last point
     first-cut-only: your code stops after the first shortcut. Try all pairs
-    indices-of-the-first-path: your pairs refer to rows of the original path. They
-      should refer to the current path
+    indices-of-the-first-path: your code takes the two rows of each pair from the
+      original path. Use the rows of the current path instead
     indices-of-the-first-path 2: your code computes the indices with the length of the
       original path, but it uses them in the current path. Use the length of the current
       path instead
@@ -156,8 +156,8 @@ def _(path, world, pairs):
       free
     all-but-the-ends: your code returns only the start and the end. Keep the other
       points of the path
-    only-the-ends-checked: your code tests only the two points. Test the edge between
-      these points
+    only-the-ends-checked: your code tests only the points i and j. Test the edge
+      between these points
     middle-checked: your code tests only the midpoint of the edge. Test the whole edge
     reversed: your path runs from its end to its start. Keep the order of the waypoints
     ends-at-i: your code returns only the path up to i. Append the path from j on

@@ -81,10 +81,11 @@ def _(q, target, step):
     """overshoots: your code takes a full step even if the target is nearer. Stop at the
       target
     no-limit: your code returns the target at any distance. Limit the motion to one step
-    fraction: your code uses `step` as a fraction of the displacement, but `step` is a
-      length
-    fraction-at-most-all: your code uses `step` as a fraction of the displacement, at
-      most 1, but `step` is a length
+    fraction: your code multiplies the displacement by `step`. Divide the displacement
+      by its norm first, because `step` is a length and not a fraction
+    fraction-at-most-all: your code multiplies the displacement by `step`, or by 1 if
+      `step` is larger. Use `step` as a length: divide the displacement by its norm
+      first
     not-unit: your code does not divide the displacement to a far target by its norm.
       Divide it, so that the norm of your step equals `step`
     squared: your code divides the displacement by its squared norm. Divide it by the
@@ -106,8 +107,9 @@ def _(q, target, step):
       the displacement
     sum-of-sizes: your code uses the sum of the absolute differences as the distance.
       Use the Euclidean norm instead
-    unit-step: your displacement has norm 1. Use the argument `step` instead
-    half-a-step: your displacement is half a step. Use a whole step
+    unit-step: your displacement has norm 1. Its norm should be equal to the argument
+      `step`
+    half-a-step: your displacement is only half a step. Use the whole step
     limit-the-other-way: your code swaps the two cases. Return the target if it is near,
       and take a full step if it is far
     from-the-origin: your step starts at the origin. Start at q instead

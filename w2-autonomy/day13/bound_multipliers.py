@@ -19,16 +19,17 @@ def _(rng):
 
 @row.wrongs
 def _(H, f, lo, hi, x):
-    """sign: your multipliers have the opposite signs. Each one should be the entry of
-      the gradient, because the cost rises if a bound moves along the gradient
-    absolute: your multipliers have lost their signs. If an upper bound moves up, the
-      cost falls, so its multiplier should be negative
+    """sign: your multipliers have the wrong sign. Each multiplier should be the
+      corresponding entry of the gradient, because the cost rises if a bound moves along
+      the gradient
+    absolute: your code takes the absolute values of the multipliers. The multiplier of
+      an upper bound should be negative, because the cost falls if this bound moves up
     upper-only: your code returns nonzero multipliers only for the upper bounds. A lower
       bound that holds an entry has a nonzero multiplier too
     lower-only: your code returns nonzero multipliers only for the lower bounds. An
       upper bound that holds an entry has a nonzero multiplier too
     no-price: your multipliers of the held entries are 0. The multiplier of a held entry
-      should be its entry of the gradient
+      should be the corresponding entry of the gradient
     largest-only: your code returns only the largest multiplier. Each held entry should
       have its own multiplier
     first-limit-only: your code returns a multiplier only for the first held entry. Each
@@ -36,8 +37,8 @@ def _(H, f, lo, hi, x):
     times-the-width: your code multiplies the gradient by the distance between the
       bounds. The multiplier should be the change in the minimum cost per unit of
       movement of the bound
-    lower-sign: your multipliers of the lower bounds have the wrong sign. A multiplier
-      should be the entry of the gradient itself
+    lower-sign: your multipliers of the lower bounds have the wrong sign. Each
+      multiplier should be the corresponding entry of the gradient
     g-forgotten: your gradient omits f. It should be H x + f
     H-halved: your gradient is H x / 2 + f. The gradient of x . H x / 2 is H x
     H-doubled: your gradient is 2 H x + f. The gradient of x . H x / 2 is H x
@@ -45,8 +46,8 @@ def _(H, f, lo, hi, x):
       distance. Return the gradient itself
     how-far: your result is the distance to the unconstrained minimiser. The multiplier
       should be the change in the minimum cost per unit of movement of the bound
-    one-each: your result contains only the sign of each multiplier. Return the gradient
-      entry of each held entry
+    one-each: your result contains only the sign of each multiplier. Return the entry of
+      the gradient itself
     """
     slope = H @ x + f
     low = (x <= lo) & (slope > 0)

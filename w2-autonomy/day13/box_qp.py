@@ -251,7 +251,7 @@ def _(H, f, lo, hi, x):
       its bound
     steepest-let-go: your code releases the held entry with the largest gradient,
       whatever its sign. Release the entry that the clamped step of task 13.4 moves most
-    all-let-go: your code releases all held entries at once, so they reach the same
+    all-let-go: your code releases all held entries at once, so they can reach the same
       bounds again. Release only the entry that would move most
     stops-too-early: your loop ends although a held entry would still move by up to
       1e-4. Use a smaller tolerance instead
@@ -278,9 +278,9 @@ def _(H, f, lo, hi, x):
       the rows and columns of H for the free entries
     gradient-steps: your result is x after 100 clamped gradient steps, which have not
       converged. Repeat the steps until x no longer changes
-    gradient-steps 2: your clamped gradient steps with a step size of 0.1 are too long
-      for this H and do not converge. Use a step size of 1 over the largest eigenvalue
-      of H
+    gradient-steps 2: your clamped gradient steps have the fixed step size 0.1, with
+      which they do not converge for every H. Use 1 over the largest eigenvalue of H
+      instead
     diagonal-hessian 2: your code divides the gradient by the diagonal of H. Solve with
       the rows and columns of H for the free entries
     gradient-steps 3: your result is x after 1,000 clamped gradient steps. They have not

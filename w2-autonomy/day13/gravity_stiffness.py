@@ -72,7 +72,7 @@ def by_pairs(J_space, masses, coms, g, *, first=max, swapped=False):
 
 @row.wrongs
 def _(J_space, masses, coms, g):
-    """sign: your result has the opposite sign. Relative to the rotated links, gravity
+    """sign: your result has the wrong sign. Relative to the rotated links, gravity
       rotates in the opposite direction, so use g x omega instead of omega x g
     gravity-not-turned: your code uses g instead of g x omega, so each column is the
       gravity torque itself. Use g x omega, because the stiffness is the derivative of
@@ -82,15 +82,15 @@ def _(J_space, masses, coms, g):
       this torque
     g-times-omega: your code multiplies g and omega entry by entry. Use the cross
       product g x omega instead
-    link-i-only: your row i contains only the weight of link i. Joint i also carries all
-      links distal to it
+    link-i-only: your row i contains only the weight of link i. Include all links distal
+      to link i, because joint i carries them too
     only-links-after: your row i omits the weight of link i. Include it, because joint i
       moves link i too
     all-links: your row i contains the weights of all links. Start with link i, because
       joint i does not carry the links before it
     lever-sign: your lever arm has the wrong sign. Use v + omega x c, which is the
       velocity of a centre of mass c
-    halves-swapped: your code swaps omega and v. The upper three rows of J_space are
+    halves-swapped: your code swaps omega and v. The upper three rows of J_space contain
       omega
     upper-half-zero: your entries above the diagonal are all 0. Copy the entries below
       the diagonal to them, because the matrix is symmetric
@@ -99,8 +99,8 @@ def _(J_space, masses, coms, g):
     upper-half-sign: your entries above the diagonal have the wrong sign. The matrix
       should be symmetric
     half-beside-the-diagonal: your code takes the mean of a lower triangular matrix and
-      its transpose, which halves the off-diagonal entries. Halve only the diagonal of
-      their sum
+      its transpose, which halves the off-diagonal entries. Add the two matrices
+      instead, and halve only the diagonal of the sum
     diagonal-zero: your diagonal is 0. The lower triangle should include the diagonal
     not-symmetrised: your code also uses the formula above the diagonal. The formula
       holds only for i >= j, because joint j then rotates every link that joint i
@@ -123,20 +123,20 @@ def _(J_space, masses, coms, g):
       gravity may point in any direction
     minus-9.81 2: your code replaces g by a vertical vector of the same norm. Use the
       argument g, because gravity may point in any direction
-    axis-before: your column j rotates gravity about the axis of the previous joint. Use
-      the axis of joint j instead
-    axes-summed: your column j rotates gravity about the sum of all axes up to joint j.
-      Use only the axis of joint j
+    axis-before: your code rotates gravity about the axis of joint j - 1 in column j.
+      Use the axis of joint j instead
+    axes-summed: your code rotates gravity about the sum of all axes up to joint j in
+      column j. Use only the axis of joint j
     g-along-omega: your code uses the component of g along omega. Use the cross product
       g x omega instead
     total-mass: your code uses the mass of the whole arm for every link. Use the mass of
       each link
     differences: your result is a finite difference of the torque with the large step of
       0.05 rad. Use the formula with g x omega instead, which gives the exact derivative
-    last-axis: every column of your matrix rotates gravity about the axis of the last
-      joint. Column j should use the axis of joint j
-    z-axis: every column of your matrix rotates gravity about z. Column j should use the
-      axis of joint j
+    last-axis: your code rotates gravity about the axis of the last joint in every
+      column. Use the axis of joint j in column j
+    z-axis: your code rotates gravity about z in every column. Use the axis of joint j
+      in column j
     turned-twice: your code rotates gravity about both omega_i and omega_j. Rotate
       gravity only about omega_j
     v-for-omega: your code rotates gravity about v_j. The rotation axis of a joint is
@@ -145,10 +145,11 @@ def _(J_space, masses, coms, g):
       Use g x omega_j alone, because the stiffness is the derivative of the torque
     distal-joints-too: your code also sums over links that only one of the two joints
       moves. Sum only over the links from the later joint on, which both joints move
-    roles-swapped: your code swaps the two joints. The later joint moves the centre of
-      mass, and the earlier joint rotates the velocity of this centre
-    screws-stay: your code lets joint j move only the centres of mass. Joint j should
-      also move the axes of the joints after it
+    roles-swapped: your code swaps the two joints. Use the velocity of the centre of
+      mass for the later joint, and rotate this velocity about the axis of the earlier
+      joint
+    screws-stay: your code moves only the centres of mass with joint j. Joint j also
+      moves the axes of the joints after it
     """
     omega = J_space[:3].T
     turned = np.cross(g, omega)

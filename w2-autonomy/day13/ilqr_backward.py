@@ -104,7 +104,7 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     drop-last-step: your `drop` contains the values of only one step. Sum the values
       over all steps
     half-in-the-first: your code halves the first entry of `drop`. Only the second entry
-      has a factor 1/2
+      has a factor of 1/2
     drop-summed: your `drop` is the sum of its two entries. Return the two entries
       separately
     drop-of-lu: the first entry of your `drop` is the sum of k . lu. It should be the
@@ -141,7 +141,7 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     drop-mean: your code divides `drop` by the number of steps. It should be the sum
       over the steps
     drop-halved: your code halves both entries of `drop`. Only the second entry has a
-      factor 1/2
+      factor of 1/2
     first-slopes: your code uses fx and fu of the first step in every step. Use fx and
       fu of step t in step t
     last-slopes: your code uses fx and fu of the last step in every step. Use fx and fu

@@ -51,10 +51,10 @@ def _(H, f, lo, hi, x):
     free-only: your code uses only the entries that are between their bounds. Use all
       entries, because the negative gradient of an entry at a bound may point into the
       box
-    lower-only: your code clamps the step only at the lower bounds. Clamp it at the
-      upper bounds too
-    upper-only: your code clamps the step only at the upper bounds. Clamp it at the
-      lower bounds too
+    lower-only: your code clamps x minus the gradient only at the lower bounds. Clamp it
+      at the upper bounds too
+    upper-only: your code clamps x minus the gradient only at the upper bounds. Clamp it
+      at the lower bounds too
     cost-gap: your result is the decrease in cost that the clamped step causes. Return
       the largest absolute change of an entry of x instead
     first-only: your code uses only the first entry. Use the entry that changes most
@@ -81,12 +81,12 @@ def _(H, f, lo, hi, x):
       Compare the new point with x itself
     clipped-first: your code first clamps x, so the residual ignores the distance of x
       from the box. Use x itself
-    slope-that-counts: your code ignores an entry only if it is at a bound and its
-      negative gradient points out of the box. Clamp x minus the gradient to both
-      bounds, because other entries may violate a bound too
-    slope-that-counts 2: your code ignores an entry only if it is at a bound and its
-      negative gradient points out of the box. Clamp x minus the gradient to both
-      bounds, because other entries may violate a bound too
+    slope-that-counts: your result is the largest absolute entry of the gradient, except
+      for entries that a bound holds. Clamp x minus the gradient to both bounds, because
+      a free entry can leave the box too
+    slope-that-counts 2: your result is the largest absolute entry of the gradient,
+      except for entries that a bound holds. Clamp x minus the gradient to both bounds,
+      because a free entry can leave the box too
     signed-limit: your code ignores every entry at a bound. Clamp x minus the gradient
       to both bounds for all entries, because an entry at a bound may move into the box
     """

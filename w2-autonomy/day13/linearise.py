@@ -68,7 +68,7 @@ def _(M, stiffness, damping, h):
       the new velocity, so use q + h times the new velocity
     half-h-squared: your code moves the joints by h v + h^2 a / 2. MuJoCo moves them at
       the new velocity for the whole step, so use h times the new velocity
-    velocity-kept: the right half of your A has no damping. The new velocity should
+    velocity-kept: the right half of your A omits the damping. The new velocity should
       contain (M + h D)^-1 M v
     velocity-kept 2: the lower right block of your A is the identity matrix. It should
       be (M + h D)^-1 M, because the damping reduces the velocity
@@ -106,13 +106,13 @@ def _(M, stiffness, damping, h):
     B-not-divided: your B omits the factor (M + h D)^-1. Multiply the input by this
       factor, because the input is a torque and not an acceleration
     B-halved-below: your code halves the lower half of B. The torque acts for the whole
-      step, so omit the factor 1/2
+      step, so omit the factor of 1/2
     B-without-damping: your code uses M^-1 in B, which omits the damping. Use (M + h
       D)^-1 instead
     slope-halved-above: your code halves the stiffness in the upper left block of A. The
-      new velocity moves the joints for the whole step, so omit the factor 1/2
+      new velocity moves the joints for the whole step, so omit the factor of 1/2
     B-halved-above: your code halves the upper half of B. The new velocity moves the
-      joints for the whole step, so omit the factor 1/2
+      joints for the whole step, so omit the factor of 1/2
     upper-right-h: the upper right block of your A is h times the identity matrix. It
       should be h (M + h D)^-1 M, because the new velocity moves the joints
     upper-without-h: your code omits h in the upper half of A. The joints move by h

@@ -85,8 +85,8 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
       come first
     limits-1: your code replaces the bounds by -1 and 1. Use dq_lo and dq_hi instead
     clipped-twice: your code clamps Day 3's damped step and then a second step for the
-      remaining error. The second step should leave out the joints that are held at a
-      bound
+      remaining error. Solve the quadratic program instead, because the second step also
+      uses joints that are held at a bound
     mean-weight-in-g: your f = -J^T W e contains the mean of the weights. Multiply each
       entry of e by its own weight instead
     clip-after 2: your result is Day 3's damped step without the weights, clamped to the

@@ -16,7 +16,7 @@ row.spans(expected=(1e-5, 1e5), after=(lambda after: 1e6,))
 
 @row.wrongs
 def _(before, after, expected):
-    """sign: your ratio has the opposite sign. The measured reduction is before - after
+    """sign: your ratio has the wrong sign. The measured reduction is before - after
     difference: your result is the measured reduction minus the expected one. Return the
       measured reduction divided by the expected one instead
     after-over-before: your result is after / before, the fraction of the cost that

@@ -42,18 +42,18 @@ def _(P, A, B, Q, R):
     Q-in-the-gain: your code computes the gain with P + Q instead of P. Omit Q, because
       the cost x . Q x of this step does not depend on u
     K-R-K-subtracted: your code subtracts K^T R K from Q + A^T P A. Subtract K^T (R +
-      B^T P B) K instead, by which the optimal input reduces the cost-to-go
+      B^T P B) K instead, because the optimal input reduces the cost-to-go by this term
     motion-forgotten: your P omits the cost-to-go of the next state. Add the term (A - B
       K)^T P (A - B K)
     P-forgotten-and-R: your new P is Q + (A - B K)^T (A - B K). Insert the old P between
       the two factors, and add K^T R K, the cost of the input => both
     K-K-subtracted: your code subtracts K^T K from Q + A^T P A. Subtract K^T (R + B^T P
-      B) K instead, by which the optimal input reduces the cost-to-go
+      B) K instead, because the optimal input reduces the cost-to-go by this term
     K-K-added: your code adds K^T K. Add K^T R K instead, which is the cost of the input
     P-not-updated: your code returns P unchanged. Return the cost-to-go matrix for the
       preceding time step
     P-halved: your P is half as large as it should be. The cost in this task has no
-      factor 1/2
+      factor of 1/2
     """
     F = B.T @ P @ A
     right, K = riccati_step(P, A, B, Q, R)

@@ -25,8 +25,8 @@ def _(rng):
 
 @row.wrongs
 def _(force, normal, mu):
-    """sign: your code reverses the sign. A contact inside its friction cone has a
-      margin above 0
+    """sign: your code reverses the sign of the margin. A contact inside its friction
+      cone has a margin above 0
     pyramid: your code uses the largest component of f_t as |f_t|. Use the Euclidean
       norm, because the cone is circular
     one-norm: your code uses the sum of the absolute components of f_t as |f_t|. Use the
@@ -35,8 +35,8 @@ def _(force, normal, mu):
       normal force is the component along the normal
     force-length-for-press 2: your code uses the norm of the whole force as f_n. The
       normal force is the component along the normal
-    one-length-for-all: your code takes one norm of the tangential forces of all
-      contacts together. Take the norm of each contact's force, with axis=1
+    one-length-for-all: your code takes a single norm over the tangential forces of all
+      contacts. Take the norm of each contact's tangential force instead, with axis=1
     mu-is-an-angle: your code uses mu as the angle of the cone. The coefficient of
       friction is already the tangent of this angle, so use mu itself
     normal-is-z 3: your code uses the z component of the force as f_n. The normal force

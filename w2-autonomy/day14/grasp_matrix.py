@@ -32,10 +32,10 @@ def _(points, centre):
     halves-swapped: your code swaps force and moment. A wrench should be (moment, force)
     arm-on-the-diagonal: your code puts p - c on the diagonal. Use the skew-symmetric
       matrix of p - c instead, which computes the cross product
-    added-up: your code adds the blocks of all points. Each point should have three
-      columns of its own
-    components-together: your code sorts the columns by component, with all x first. The
-      three columns of a contact should be adjacent
+    added-up: your code adds the blocks of all points. Give each point three columns of
+      its own instead
+    components-together: your code sorts the columns by component, with all x components
+      first. The three columns of a contact should be adjacent
     moments-only: your lower three rows are 0. They should contain the forces
     forces-only: your upper three rows are 0. They should contain the moments
     about-the-mean: your moments are about the mean of the points. They should be about

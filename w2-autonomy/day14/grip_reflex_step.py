@@ -78,14 +78,14 @@ def _(rng):
 
 @row.wrongs(hidden={"at-the-line": "no margin of the lab is exactly at the limit"})
 def _(finger_position, force, normal, mu, fraction, step):
-    """all-must-slip: your pads close only if all contacts nearly slip. One contact that
-      nearly slips is enough
+    """all-must-slip: your pads close only if all contacts nearly slip. Close them if at
+      least one contact nearly slips
     at-the-line: your pads also close if a margin is equal to `fraction` times mu f_n.
       Close them only if a margin is smaller
     one-minus-the-share: your code compares the margin with (1 - fraction) mu f_n.
       Compare it with `fraction` times mu f_n instead
-    high-for-low: your limit for the finger position is HIGH[4], so the pads open. Use
-      LOW[4] instead
+    high-for-low: your code uses HIGH[4] as the limit of the finger position, so the
+      pads open. Use LOW[4] instead
     smaller-for-larger: your code returns the smaller of the new position and LOW[4].
       Return the larger of the two instead
     always: your pads close at every call. Close them only if a contact nearly slips

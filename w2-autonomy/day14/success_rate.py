@@ -42,8 +42,8 @@ def _(success):
       % interval
     ninety-nine: your code uses z = 2.576, which gives a 99 % interval. Use 1.96 for a
       95 % interval
-    n-less-one: your code divides the rate and both ends of its interval by n - 1.
-      Divide them by n instead, the number of trials
+    n-less-one: your code divides by n - 1 in the rate and in both ends of the interval.
+      Divide by n instead, the number of trials
     per-cent: your three results are in per cent. Return fractions instead
     """
     won = np.asarray(success, float)

@@ -52,8 +52,8 @@ def side_by_side(*blocks):
 
 
 for slug, says, blocks in (
-    ("smoothed", "your dry friction is tanh(qd / 0.1), which is a smoothed sign. Use "
-                 "the sign of qd itself",
+    ("smoothed", "your dry friction is tanh(qd / 0.1), a smooth approximation of the "
+                 "sign of qd. Use the sign itself",
      lambda qd, qdd: (qdd, qd, np.tanh(qd / 0.1))),
     ("sign-at-rest",
      "your dry friction is 1 for a joint at rest. It should be 0, because the sign "

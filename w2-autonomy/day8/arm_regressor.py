@@ -98,32 +98,31 @@ for slug, says, other in (
                                      {"back": np.linalg.inv}),
     ("wrench-not-carried-back", "your code only rotates the wrench to the world "
                                 "frame. Multiply the wrench by X^T, which also moves "
-                                "the reference point of the moment to the world's "
-                                "origin",
+                                "the reference point of the moment to the world origin",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),
-    ("every-joint-feels-every-link", "your matrix has entries for each link in the "
-                                     "rows of all joints. Fill only the rows of "
-                                     "joints 1 to i for link i, because a link "
-                                     "causes no torque at the joints distal to it",
+    ("every-joint-feels-every-link", "your code fills the rows of all joints for each "
+                                     "link. For link i, fill only the rows of joints "
+                                     "1 to i, because a link causes no torque at the "
+                                     "joints distal to it",
      {"felt": lambda i: slice(0, 7)}),
-    ("cut-early", "your code omits the row of each link's own joint. Fill this row "
-                  "too, because a link also causes a torque at its own joint",
+    ("cut-early", "your code does not fill the row of joint i for link i. Fill this "
+                  "row too, because a link also causes a torque at its own joint",
                   {"felt": lambda i: slice(0, i)}),
-    ("cut-late", "your code also fills the row of the joint after each link. This "
-                 "row should be 0, because a link causes no torque at this joint",
+    ("cut-late", "your code also fills the row of joint i + 1 for link i. Leave this "
+                 "row 0, because a link causes no torque at the joints distal to it",
                  {"felt": lambda i: slice(0, i + 2)}),
-    ("later-links-only", "your matrix has the entries of link i in the rows of joints "
-                         "i to 7. They belong in the rows of joints 1 to i",
+    ("later-links-only", "your code fills the rows of joints i to 7 for link i. Fill "
+                         "the rows of joints 1 to i instead, because these joints "
+                         "carry link i",
      {"felt": lambda i: slice(i, 7)}),
-    ("own-link-only", "your code fills only the columns of the joint's own link in "
-                      "each row. Fill the columns of all links distal to the joint "
-                      "as well, because the joint also carries these links",
+    ("own-link-only", "your code fills only the row of joint i for link i. Fill the "
+                      "rows of joints 1 to i, because all these joints carry link i",
                       {"felt": lambda i: slice(i, i + 1)}),
     ("last-link-missing", "your columns for the last link are 0. Does your loop end "
                           "one link too early?", {"links": 6}),
     ("pose-of-the-link-before", "your code uses the pose of the previous link for "
-                                "each link. T_links[0] is already the pose of link1, "
-                                "so use T_links[i] for link i + 1",
+                                "each link. T_links[0] is already the pose of link 1, "
+                                "so use T_links[i - 1] for link i",
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
     ("pose-on-the-link-before", "your code uses the pose of each link relative to the "
      "previous link. T_links contains poses relative to the world, so use them "
@@ -173,7 +172,7 @@ def added_up_in_the_links(J, T, qd, qdd, g):
 @row.wrong
 def grouped_by_number(J_space, T_links, qd, qdd, g):
     """your columns are grouped by parameter, with all masses first. Group the columns
-    by link, ten columns each"""
+    by link, with ten columns per link"""
     Y = arm_regressor(J_space, T_links, qd, qdd, g).reshape(7, 7, 10)
     return np.swapaxes(Y, 1, 2).reshape(7, 70)
 

@@ -43,13 +43,12 @@ def solved(Y, extra, rcond=None):
 
 @row.wrongs
 def _(J_site, R_site, extra, g):
-    """load-drives: your result has the wrong sign. The argument extra is the torque of
-      the motors, which hold the payload against its weight
-    force-first: your wrench is in the order (force, moment). The first three rows of J
-      are angular, so the moment should come first
-    holds-averaged: your code averages the poses before the fit, which leaves seven
-      equations and removes the differences between the poses. Stack the rows of all
-      poses
+    """load-drives: your result has the wrong sign. The motors balance the payload, so
+      extra is minus the torque that the weight of the payload causes
+    force-first: your wrench is in the order (force, moment). The first three rows of
+      J_site are angular, so the moment should come first
+    holds-averaged: your code averages the equations of all poses before the fit, so
+      only seven equations remain. Stack the rows of all poses instead
     first-hold-only: your code uses only the first pose. One pose does not determine all
       four parameters, so stack the rows of all poses
     last-hold-only: your code uses only the last pose. Does each pass of your loop
@@ -66,7 +65,7 @@ def _(J_site, R_site, extra, g):
       solutions. One pose does not determine all four parameters, so stack the rows of
       all poses
     weight-for-mass: your first result is the weight in newtons. The column for m should
-      contain g itself, not its unit vector
+      contain g itself, not the unit vector along g
     centre-for-first-moment: your last three results are the centre of mass c. Return
       the first moment m c instead, because the equations are linear in m c
     """

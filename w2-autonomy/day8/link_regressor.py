@@ -36,8 +36,8 @@ def _(V, Vd):
       unit vector for each column
     gravity-added: your code adds gravity to Vd. Use Vd unchanged, because it already
       includes gravity as the acceleration -g of the base
-    first-moments-empty: your columns for m c are 0. In the unit vectors of these
-      columns, m is 0, so neither multiply nor divide phi[1:4] by m
+    first-moments-empty: your columns for m c are 0. Neither multiply nor divide
+      phi[1:4] by m, because m is 0 in the unit vectors of these columns
     """
     right = link_regressor(V, Vd)
     X = ad(V)

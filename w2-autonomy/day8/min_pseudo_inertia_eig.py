@@ -50,17 +50,15 @@ for slug, says, code in (
                          "pseudo-inertia [[S, h], [h^T, m]] with S = (tr(I)/2) E - I, "
                          "where E is the identity matrix",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi)[:3, :3])[0]),
-    ("inertia-not-turned-round", "your upper left block is I. It should be the sum of "
-                                 "m r r^T, which is (tr(I)/2) E - I with the identity "
-                                 "matrix E",
+    ("inertia-not-turned-round", "your upper left block is I. It should be (tr(I)/2) "
+                                 "E - I, where E is the identity matrix",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: I))[0]),  # noqa: E741
     ("products-not-negated", "the off-diagonal entries of your S have the wrong sign. "
-                             "In S = (tr(I)/2) E - I with the identity matrix E, they "
-                             "are -Ixy, -Ixz and -Iyz",
+                             "They should be -Ixy, -Ixz and -Iyz, because S = "
+                             "(tr(I)/2) E - I with the identity matrix E",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, mirrored))[0]),
-    ("not-halved", "the diagonal of your S is twice as large as it should be. The "
-                   "first entry of (tr(I)/2) E - I, with the identity matrix E, is "
-                   "(Iyy + Izz - Ixx) / 2",
+    ("not-halved", "the diagonal of your S is twice as large as it should be. Its "
+                   "first entry should be (Iyy + Izz - Ixx) / 2",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, doubled))[0]),
     ("centre-for-first-moment", "your code uses the centre of mass c. Use the first "
                                 "moment h = m c instead, which phi already contains",
@@ -75,8 +73,8 @@ for slug, says, code in (
     ("nearest-to-zero", "your result is the eigenvalue with the smallest absolute "
                         "value. Return the smallest eigenvalue, which may be negative",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi)), key=abs)),
-    ("clipped", "your code sets a positive result to 0. Return the eigenvalue itself "
-                "instead",
+    ("clipped", "your code replaces a positive eigenvalue by 0. Return the eigenvalue "
+                "itself instead",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
     ("never-above-zero", "your result is minus the absolute value of the eigenvalue. "
                          "Return the eigenvalue itself, which is not negative for a "

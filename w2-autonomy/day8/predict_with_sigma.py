@@ -34,7 +34,7 @@ def _(Y, tau, Y_new, rtol):
     one-more-taken-off: your code divides the sum of the squared residuals by n - rank -
       1. No mean is subtracted, so divide the sum by n - rank
     mean-of-sizes: your noise level is the mean absolute residual. It should be sqrt(r .
-      r / (n - rank)) with the vector r of the residuals
+      r / (n - rank)), where r is the vector of residuals
     noise-added: your code adds the noise of a new measurement to sigma. Omit this
       noise, because sigma should include only the uncertainty of the fitted parameters
     mean-taken-off: your code first subtracts the mean of the residuals, as in a

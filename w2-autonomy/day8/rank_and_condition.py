@@ -114,8 +114,9 @@ for slug, says, told in (
                         "singular values, so compare them with rtol^2 times the "
                         "largest one",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), s[0] / s[n - 1])),
-    ("hidden-for-shown", "your rank is the number of singular values below the limit. "
-                         "It should be the number above the limit",
+    ("hidden-for-shown", "your rank is the number of singular values below rtol times "
+                         "the largest one. Count the singular values above this limit "
+                         "instead",
      lambda s, rtol: (len(s) - (n := np.sum(s > rtol * s[0])), s[0] / s[n - 1])),
     ("condition-squared", "your code computes the condition number of Y^T Y, which "
                           "is the square of the condition number of Y. Use the "
@@ -125,7 +126,7 @@ for slug, says, told in (
                          "the singular values. Take a square root only if you use "
                          "the eigenvalues of Y^T Y",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), np.sqrt(s[0] / s[n - 1]))),
-    ("condition-inverted", "your code inverts the condition number. Divide the largest "
+    ("condition-inverted", "your condition number is inverted. Divide the largest "
                            "singular value by the smallest one, so that the result is "
                            "at least 1",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), s[n - 1] / s[0])),

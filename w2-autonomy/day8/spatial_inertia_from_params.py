@@ -59,7 +59,7 @@ def _(phi):
       block should be [h]^T
     corner-negated: both of your off-diagonal blocks are [h]^T. The upper right block
       should be [h]
-    velocity-first: your blocks are in the order (v; omega). The block of omega should
+    velocity-first: your blocks are in the order (v; omega). The angular block should
       come first, because a twist in this course is (omega; v)
     """
     G = right(phi)

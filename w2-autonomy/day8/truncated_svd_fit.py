@@ -12,7 +12,7 @@ from .states import CUT, hidden, regressors, spread, stairs, uneven
 
 
 def of_the_values(case: Case) -> Finding | None:
-    """Return which singular values are kept, or that all parameters are reduced."""
+    """Return which singular values are kept, or that the fit is a ridge regression."""
     more = fewer = 0
     cut = True
     added = []
@@ -33,8 +33,8 @@ def of_the_values(case: Case) -> Finding | None:
         return Finding("cut-elsewhere", says)
     if all(one[-1] > 0 and np.allclose(one, one[-1], rtol=0.1) for one in added):
         most = max(one[-1] for one in added)
-        says = f"Your code reduces every parameter, because it adds up to {most:.3g} "
-        says += "to the diagonal of Y^T Y (ridge regression)."
+        says = f"Your code adds up to {most:.3g} to the diagonal of Y^T Y (ridge "
+        says += "regression), which shrinks all combinations of parameters."
         return Finding("ridge", says)
     return columns_left_out(case) or not_the_smallest(case)
 
@@ -116,7 +116,8 @@ def parts(Y, rtol):
 @row.wrongs
 def _(Y, tau, rtol):
     """nothing-cut: your code uses all singular values. Omit the values below rtol times
-      the largest one, because noise dominates their combinations of parameters
+      the largest one, because noise dominates the corresponding combinations of
+      parameters
     rtol-absolute: your code compares the singular values with rtol itself. Compare them
       with rtol times the largest one
     cut-by-the-sum: your code compares the singular values with rtol times their sum.
@@ -130,13 +131,13 @@ def _(Y, tau, rtol):
     cut-not-squared: your code compares the eigenvalues of Y^T Y with rtol times the
       largest one. These eigenvalues are the squares of the singular values, so compare
       them with rtol^2 times the largest one
-    ridge: your code adds a constant to the diagonal of Y^T Y, which reduces every
-      parameter. Omit the small singular values instead, so that the other combinations
-      keep their values
+    ridge: your code adds a constant to the diagonal of Y^T Y, which shrinks all
+      combinations of parameters. Omit the small singular values instead, so that the
+      other combinations keep their values
     mean-taken-off: your code first subtracts the mean of tau. Use tau unchanged,
       because the model tau = Y phi has no constant term
-    times-s: your fit multiplies by the singular values. Divide by the singular values
-      instead, as in the pseudo-inverse of Y
+    times-s: your code multiplies U^T tau by the singular values. Divide U^T tau by the
+      singular values instead, as in the pseudo-inverse of Y
     first-columns: your code fits only the first r columns of Y, where r is the rank.
       These columns need not be linearly independent, so use all columns and the SVD
     """

@@ -55,10 +55,10 @@ for slug, says, other in (
     ("first-repeated", "your first velocity is a copy of the second. No sample "
                        "precedes the first one, so the first velocity should be 0",
      {"change": lambda q: np.append(np.diff(q)[:1], np.diff(q))}),
-    ("two-samples", "your code divides the change over two samples by one dt. Divide "
-                    "the change since the previous sample by dt instead",
+    ("two-samples", "your code divides the change over two periods by dt. Divide the "
+                    "change since the previous sample by dt instead",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2])}),
-    ("mean-of-two", "your code divides the change over two samples by 2 dt, which "
+    ("mean-of-two", "your code divides the change over two periods by 2 dt, which "
                     "approximates the velocity at the previous sample. Divide the "
                     "change since the previous sample by dt instead",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2]) / 2}),
@@ -69,7 +69,7 @@ for slug, says, other in (
                        "Use the change since the previous sample instead",
      {"change": lambda q: q - q[0]}),
     ("by-its-time", "your code divides each change by the time since the start. Each "
-                    "change happened within one period, so divide it by dt",
+                    "change takes place within one period, so divide it by dt",
      {"change": lambda q: backward(q) / np.maximum(np.arange(len(q)), 1)}),
     ("last-left-out", "your last velocity is 0. Does your loop end one sample too "
                       "early?",

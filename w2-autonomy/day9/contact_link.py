@@ -48,7 +48,7 @@ def _(residual, threshold):
       there is none, as np.argmax does. Return the last such joint, or 0 if there is
       none
     first-joint 3: your function returns the first joint over its threshold, counted
-      from 0. Return the last such joint, counted from 1 instead => both
+      from 0. Return the last such joint instead, counted from 1 => both
     from-zero: your code counts the joints from 0. The first joint has the number 1,
       because 0 means no contact
     from-zero 2: your code counts the joints from 0 and returns -1 without a contact.
@@ -80,8 +80,8 @@ def _(residual, threshold):
     how-many 2: your function returns how many joints have a residual above the
       threshold. Return the number of the last joint whose absolute residual is above
       its threshold
-    any: your function returns 1 if any joint is over its threshold, else 0. Return the
-      number of the last such joint instead
+    any: your function returns 1 if any joint is over its threshold, and otherwise 0.
+      Return the number of the last such joint instead
     all-or-none: your function returns 7 as soon as one joint is over its threshold.
       Return the number of the last such joint instead
     last-of-none: your function returns 7 if no joint is over its threshold. Return 0

@@ -116,7 +116,8 @@ for slug, says, other in (
                      "correlated",
      {"nis": lambda y, S, known: y @ (y / np.diag(S))}),
     ("nis-per-number", "your code divides the NIS by m, the number of entries of z. "
-                       "Do not divide it, because the mean of the NIS is m",
+                       "Do not divide it, because the expected value of the NIS "
+                       "should be m",
      {"nis": lambda y, S, known: weighed(y, S) / len(y)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(updated, **other))

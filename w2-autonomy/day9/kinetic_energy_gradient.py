@@ -39,11 +39,11 @@ def gradient(
 
 
 for slug, says, other in (
-    ("slope-sign", "your result has the opposite sign. Relative to the rotated "
-                   "links, V_i rotates in the opposite direction, so its derivative "
-                   "is -ad(S_i) V_i",
+    ("slope-sign", "your result has the wrong sign. Relative to the rotated links, "
+                   "V_i rotates in the opposite direction, so its derivative is "
+                   "-ad(S_i) V_i",
      {"factor": 1.0}),
-    ("halved", "your code halves the result. Omit the factor 1/2, which cancels "
+    ("halved", "your code halves the result. Omit the factor of 1/2, which cancels "
                "because the twist appears twice in the energy V . G V / 2",
      {"factor": -0.5}),
     ("own-link-only", "your code uses only the contribution of link i. Joint i also "
@@ -60,10 +60,13 @@ for slug, says, other in (
     ("last-link-only", "your code uses only the contribution of link 7. Does your "
                        "loop overwrite entry i for each k instead of adding to it?",
      {"felt": lambda i: slice(-1, None)}),
-    ("earlier-links", "your code sums the contributions of links 1 to i, but joint i "
-                      "rotates links i to 7", {"felt": lambda i: slice(0, i + 1)}),
-    ("all-links", "your code sums the contributions of all links. Sum only from link "
-                  "i on, because joint i does not move the links before it",
+    ("earlier-links", "your code sums the contributions of links 1 to i. Sum the "
+                      "contributions of links i to 7 instead, because joint i rotates "
+                      "these links",
+     {"felt": lambda i: slice(0, i + 1)}),
+    ("all-links", "your code sums the contributions of all links. Sum only the "
+                  "contributions of links i to 7, because joint i does not move the "
+                  "links before it",
      {"felt": lambda i: slice(0, None)}),
     ("omega-alone", "your code rotates only the angular part of V_i. Use the whole "
                     "product ad(S_i) V_i, which changes the linear part as well",

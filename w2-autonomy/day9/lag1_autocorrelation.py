@@ -79,7 +79,8 @@ for slug, says, other in (
                 "positions later. Use lag 1: multiply each entry by the next entry",
      {"pairs": lambda d: d[2:] @ d[:-2]}),
     ("lag-zero", "your code multiplies each entry by itself, so the result is always "
-                 "1. Multiply each entry by its neighbour", {"pairs": lambda d: d @ d}),
+                 "1. Multiply each entry by the next entry instead",
+     {"pairs": lambda d: d @ d}),
     ("round-the-corner", "your code multiplies the last entry by the first, as with "
                          "np.roll. Omit this product, because the last and the first "
                          "entry are not neighbours",
@@ -92,8 +93,8 @@ for slug, says, other in (
 def _(y):
     """two-means: your code uses a separate mean and norm for y[1:] and y[:-1], as
       np.corrcoef does. Use the mean of y for both, and the sum of all n squares
-    of-the-changes: your result is the autocorrelation of the changes of y. Compute it
-      from y itself
+    of-the-changes: your result is the autocorrelation of the differences between
+      neighbouring entries. Compute it from y itself
     changes-squared: your result is the Durbin-Watson statistic, which is 2 for white
       noise. Use the products of neighbouring entries instead
     """

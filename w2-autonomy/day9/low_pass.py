@@ -47,8 +47,8 @@ def filtered(
 
 for slug, says, other in (
     ("rc-share", "your alpha is dt / (dt + RC) with RC = 1 / (2 pi cutoff). Use 1 - "
-                 "exp(-dt / RC), because your formula is accurate only for low cutoff "
-                 "frequencies",
+                 "exp(-dt / RC), because your formula is accurate only if dt is much "
+                 "smaller than RC",
      {"alpha": lambda x: x / (1 + x)}),
     ("share-turned-round", "your code swaps alpha and 1 - alpha. The new sample "
                            "should get the weight alpha, and the previous output the "
@@ -58,8 +58,8 @@ for slug, says, other in (
                     "alpha is above 1. Use the exact solution over dt instead, 1 - "
                     "exp(-2 pi cutoff dt)",
      {"alpha": lambda x: x}),
-    ("no-2-pi", "your code omits the factor 2 pi. The argument `cutoff` is in Hz, so "
-                "the time constant is 1 / (2 pi cutoff)",
+    ("no-2-pi", "your code omits the factor of 2 pi. The argument `cutoff` is in Hz, "
+                "so the time constant is 1 / (2 pi cutoff)",
      {"of": lambda dt, f: f * dt}),
     ("cutoff-for-time", "your code uses `cutoff` as the time constant. The time "
                         "constant is 1 / (2 pi cutoff), because `cutoff` is a "
@@ -73,15 +73,15 @@ for slug, says, other in (
     ("first-filtered", "your output y starts at alpha x[0], as if the previous output "
                        "had been 0. It should start at x[0]",
                        {"first": lambda x, a: a * x[0]}),
-    ("by-the-sample-before", "your code uses the previous sample instead of the "
-                             "previous output. Use the previous output, because the "
-                             "filter should remember all earlier samples",
+    ("by-the-sample-before", "your code uses the previous sample of x instead of the "
+                             "previous output. The filter needs the previous output, "
+                             "which depends on all earlier samples",
      {"step": lambda y, now, before, a: a * now + (1 - a) * before}),
     ("change-added", "your code adds alpha times the change of x. Add alpha times the "
                      "difference between x and the previous output",
      {"step": lambda y, now, before, a: y + a * (now - before)}),
     ("whole-numbers-kept", "your code stores y in an integer array, which discards "
-                           "the fraction of each output. Create the array with floats",
+                           "the fraction of each output. Create a float array instead",
      {"step": lambda y, now, before, a: np.trunc(np.trunc(y) + a * (now - np.trunc(y))),
       "first": lambda x, a: np.trunc(x[0])}),
 ):  # fmt: skip

@@ -36,14 +36,15 @@ def counted(
 
 
 for slug, says, other in (
-    ("floor", "your code rounds the counts down. Round them to the nearest integer "
-              "instead, because an encoder reports the nearest count",
+    ("floor", "your code rounds the angle in counts down. Round it to the nearest "
+              "integer instead, because an encoder reports the nearest count",
      {"whole": np.floor}),
-    ("towards-zero", "your code rounds the counts towards 0, as int() does. Round "
-                     "them to the nearest integer instead, because an encoder reports "
-                     "the nearest count", {"whole": np.trunc}),
-    ("middle-of-a-count", "your code rounds the counts down and adds half a count. "
-                          "Round them to the nearest integer instead, because an "
+    ("towards-zero", "your code rounds the angle in counts towards 0, as int() does. "
+                     "Round it to the nearest integer instead, because an encoder "
+                     "reports the nearest count",
+     {"whole": np.trunc}),
+    ("middle-of-a-count", "your code rounds the angle in counts down and adds half a "
+                          "count. Round it to the nearest integer instead, because an "
                           "encoder reports whole counts",
      {"whole": lambda k: np.floor(k) + 0.5}),
     ("one-count-fewer", "your code divides a revolution by counts - 1, which omits "
@@ -59,8 +60,8 @@ for slug, says, other in (
      {"step": lambda n: n / (2 * np.pi)}),
     ("in-counts", "your output is in counts. It should be an angle in radians",
      {"told": lambda k, step: k}),
-    ("two-pi-alone", "your code divides the number of counts by 2 pi. Multiply this "
-                     "number by the angle of one count instead",
+    ("two-pi-alone", "your code divides the rounded number of counts by 2 pi. "
+                     "Multiply this number by the angle of one count instead",
      {"told": lambda k, step: k / (2 * np.pi)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(counted, **other))

@@ -87,7 +87,9 @@ def back_project(
     With 10.1's K and T the identity (125, 50) at depth 2 is (1, 0, 2).
     """
     # region 10.3
-    through = np.column_stack([pixels, np.ones(len(pixels))])  # the pixels with a 1
+    through = np.column_stack(  # the homogeneous pixels (u, v, 1)
+        [pixels, np.ones(len(pixels))]
+    )
     p = depth[:, None] * np.linalg.solve(K, through.T).T  # camera-frame points
     return p @ T_world_cam[:3, :3].T + T_world_cam[:3, 3]  # the points in the world
     # endregion 10.3
@@ -111,7 +113,7 @@ def projection_jacobian(K: np.ndarray, p_cam: np.ndarray) -> np.ndarray:
         fx * np.array([one, zero, -x / z]),  # the row of u, times z
         fy * np.array([zero, one, -y / z]),  # the row of v, times z
     )
-    by_point = np.array([of_u, of_v]) / z  # the derivatives by the point
+    by_point = np.array([of_u, of_v]) / z  # the derivatives with respect to the point
     by_point = np.moveaxis(by_point, 2, 0)  # the same, with one block for each point
     return np.concatenate([-by_point @ skew(p_cam), by_point], axis=2)  # the Jacobian
     # endregion 10.4
@@ -128,7 +130,7 @@ def kabsch(source: np.ndarray, target: np.ndarray) -> np.ndarray:
     # region 10.5
     a = source.mean(axis=0)  # the centroid of the source
     b = target.mean(axis=0)  # the centroid of the target
-    U, _, Vt = np.linalg.svd((target - b).T @ (source - a))  # the decomposition
+    U, _, Vt = np.linalg.svd((target - b).T @ (source - a))  # the SVD
     R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt  # the nearest rotation
     return se3.make_T(R, b - R @ a)  # the motion that maps a to b
     # endregion 10.5
@@ -143,7 +145,7 @@ def apply_twist(T: np.ndarray, xi: np.ndarray) -> np.ndarray:
     xi = (0, 0, 0, 1, 0, 0) moves by a metre along x, (0, 0, 0, 0, 0, 0) not at all.
     """
     # region 10.6
-    angle = np.linalg.norm(xi[:3])  # the angle
+    angle = np.linalg.norm(xi[:3])  # the rotation angle
     theta = angle if angle > 0 else np.linalg.norm(xi[3:])  # the angle or the distance
     return exp_screw(xi / theta, theta) @ T if theta > 0 else T.copy()  # the pose
     # endregion 10.6
@@ -159,7 +161,7 @@ def refine_pose(
     A guess that is right stays.
     """
     # region 10.6
-    T = T_guess  # the present pose
+    T = T_guess  # the current pose
     for _ in range(STEPS):
         p_cam = points @ T[:3, :3].T + T[:3, 3]  # the points in the camera frame
         J = projection_jacobian(K, p_cam).reshape(-1, 6)  # two rows for each point
@@ -210,7 +212,7 @@ def icp_step(T: np.ndarray, source: np.ndarray, target: np.ndarray) -> np.ndarra
     # region 10.9
     now = source @ T[:3, :3].T + T[:3, 3]  # the source after the motion T
     away = np.sum((now[:, None] - target) ** 2, axis=2)  # the squared distances, (n, m)
-    return kabsch(source, target[np.argmin(away, axis=1)])  # the best motion
+    return kabsch(source, target[np.argmin(away, axis=1)])  # the motion of the best fit
     # endregion 10.9
 
 

@@ -94,7 +94,7 @@ def capsule_distance(
     """
     # region 11.2
     p, o = closest_points_segments(a0, a1, b0, b1)  # closest points of the axes
-    return np.linalg.norm(p - o) - ra - rb  # the distance of the surfaces
+    return np.linalg.norm(p - o) - ra - rb  # the distance between the surfaces
     # endregion 11.2
 
 
@@ -137,7 +137,7 @@ def capsule_box_distance(
     start = R.T @ (a0 - T_world_box[:3, 3])  # start of the axis in the box frame
     way = R.T @ (a1 - a0)  # direction of the axis in the box frame
     low = 0.0  # lower end of the interval that contains the minimum
-    high = 1.0  # upper end of that interval
+    high = 1.0  # upper end of the interval
     for _ in range(60):  # the passes of the golden-section search
         left = high - 0.618 * (high - low)  # the sample at 0.382 of the interval
         right = low + 0.618 * (high - low)  # the sample at 0.618 of the interval
@@ -214,7 +214,9 @@ def distal_radii(link_lengths: np.ndarray, link_radii: np.ndarray) -> np.ndarray
     # region 11.7
     reach = np.array(link_radii)  # the farthest point of the joint's own link
     for i in range(len(link_radii) - 2, -1, -1):  # the joints, from the last but one
-        reach[i] = max(link_radii[i], link_lengths[i] + reach[i + 1])  # own or distal
+        reach[i] = max(  # the larger of the own radius and the distal bound
+            link_radii[i], link_lengths[i] + reach[i + 1]
+        )
     return reach  # the distal radii
     # endregion 11.7
 

@@ -74,8 +74,8 @@ def segment_free_of_discs(a: np.ndarray, b: np.ndarray, discs: np.ndarray) -> bo
     """
     # region 12.2
     along = b - a  # the edge as a vector
-    to_centres = discs[:, :2] - a  # the vectors from its beginning to the centres
-    part = to_centres @ along / max(along @ along, 1e-300)  # t on the line, 1 at b
+    to_centres = discs[:, :2] - a  # the vectors from a to the centres
+    part = to_centres @ along / max(along @ along, 1e-300)  # parameter t on the line
     feet = np.clip(part, 0.0, 1.0)[:, None] * along  # nearest points, relative to a
     return bool(  # the test that every disc is further away than its radius
         np.all(np.linalg.norm(to_centres - feet, axis=1) > discs[:, 2])
@@ -105,8 +105,8 @@ def extend(
     extend(((0, 0), (1, 0)), (1, 2), 0.5, ((1, 1, 0.5),)) -> (1, (1, 0.5), False)
     """
     # region 12.3
-    i = nearest(tree, sample)  # the node that grows
-    q = steer(tree[i], sample, step)  # the new end of its edge
+    i = nearest(tree, sample)  # the nearest node
+    q = steer(tree[i], sample, step)  # the new point
     return i, q, edge_free(tree[i], q, world)  # node, new point and result of the test
     # endregion 12.3
 
@@ -145,7 +145,7 @@ def rrt_connect(
         if free:
             trees[side].append(q)
             parents[side].append(i)
-        return free  # the success of the extension
+        return free  # the result of the extension
 
     def back(side: int) -> list:
         i = len(trees[side]) - 1  # the newest node
@@ -180,7 +180,7 @@ def shortcut(path: np.ndarray, world, pairs: np.ndarray) -> np.ndarray:
     """
     # region 12.5
     for pair in pairs:
-        i, j = sorted(int(u * len(path)) for u in pair)  # rows of the present path
+        i, j = sorted(int(u * len(path)) for u in pair)  # the rows of the current path
         if j - i > 1 and edge_free(path[i], path[j], world):
             path = np.concatenate([path[: i + 1], path[j:]])  # the shorter path
     return path.copy()  # the shorter path
@@ -197,10 +197,10 @@ def wilson_interval(successes: int, n: int) -> np.ndarray:
     """
     # region 12.6
     if n == 0:
-        return np.array([0.0, 1.0])  # the interval without a trial
+        return np.array([0.0, 1.0])  # the interval for n = 0
     z = 1.96  # standard deviations that contain 95 % of a normal distribution
     p = successes / n  # the success rate
-    around = z * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))  # half of the width
+    around = z * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))  # the half-width
     return (  # both ends of the interval
         p + z**2 / (2 * n) + np.array([-around, around])
     ) / (1 + z**2 / n)
@@ -226,7 +226,7 @@ def path_dynamics(
     return np.array([
         M @ dq_ds,  # the coefficient of sdd
         M @ d2q_ds2 + coriolis,  # the coefficient of sd^2
-        gravity,  # the constant
+        gravity,  # the constant term
     ])  # fmt: skip
     # endregion 12.7
 

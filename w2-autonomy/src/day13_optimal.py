@@ -264,7 +264,7 @@ def ilqr_backward(
         Vx = (  # the gradient of the cost-to-go
             Qx + K[t].T @ (Qu + Quu @ k[t]) + Qux.T @ k[t]
         )
-        Vxx = Qxx + K[t].T @ (Qux + Quu @ K[t]) + Qux.T @ K[t]  # its Hessian
+        Vxx = Qxx + K[t].T @ (Qux + Quu @ K[t]) + Qux.T @ K[t]  # the cost-to-go Hessian
     return k, K, drop  # the results
     # endregion 13.7
 

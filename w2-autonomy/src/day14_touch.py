@@ -73,7 +73,7 @@ def cone_margin(force: np.ndarray, normal: np.ndarray, mu: np.ndarray) -> np.nda
     # region 14.1
     press = np.sum(force * normal, axis=1)  # normal force of each contact
     along = force - press[:, None] * normal  # tangential force
-    return mu * press - np.linalg.norm(along, axis=1)  # margin
+    return mu * press - np.linalg.norm(along, axis=1)  # the margin
     # endregion 14.1
 
 
@@ -152,9 +152,9 @@ def certifies_force_closure(W: np.ndarray, weights: np.ndarray) -> bool:
     # region 14.4
     if np.linalg.matrix_rank(W, rtol=1e-9) < 6:
         return False  # the result without rank 6
-    left = np.abs(W @ weights)  # the sum, which should be 0
-    all_of_it = np.abs(W) @ np.abs(weights)  # the size of its terms, row by row
-    return bool(  # the test of positive weights whose sum is 0
+    left = np.abs(W @ weights)  # the absolute entries of W w
+    all_of_it = np.abs(W) @ np.abs(weights)  # the sum of |W_ij w_j| in each row
+    return bool(  # the test of the weights and of W w
         np.all(weights > 0) and np.all(left <= 1e-9 * all_of_it)
     )
     # endregion 14.4
@@ -213,8 +213,8 @@ def reward(heights: np.ndarray, target: float, cap: float) -> np.ndarray:
     0.2, 0.9, nan, -0.01) with 0.05 and 0.3: (0.2, 1, 1, -1, -1, 0).
     """
     # region 14.6
-    worth = np.clip(heights, 0, target) / target  # the reward by the height, 0 to 1
-    good = np.isfinite(heights) & (heights <= cap)  # the cubes neither lost nor thrown
+    worth = np.clip(heights, 0, target) / target  # the reward of the height, 0 to 1
+    good = np.isfinite(heights) & (heights <= cap)  # the finite heights up to the cap
     return np.where(good, worth, -1.0)  # reward of each episode
     # endregion 14.6
 
@@ -232,8 +232,8 @@ def cem_step(
     3]], [1, 5, 5, np.nan], 2) -> ([1, 1.5], [2, 0.5])
     """
     # region 14.7
-    samples = mean + std * noise  # one policy per row
-    best = np.argsort(-scores, kind="stable")[:elite]  # the elite; a NaN goes last
+    samples = mean + std * noise  # the samples, one policy per row
+    best = np.argsort(-scores, kind="stable")[:elite]  # the elite, with NaN last
     return samples[best].mean(axis=0), samples[best].std(axis=0)  # mean and std
     # endregion 14.7
 
@@ -248,7 +248,7 @@ def success_rate(success: np.ndarray) -> np.ndarray:
     won = int(np.sum(success))  # number of successes
     return np.array([
         won / len(success),  # the success rate
-        *wilson_interval(won, len(success)),  # its confidence interval
+        *wilson_interval(won, len(success)),  # the confidence interval
     ])  # fmt: skip
     # endregion 14.8
 

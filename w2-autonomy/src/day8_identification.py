@@ -147,7 +147,7 @@ def rank_and_condition(Y: np.ndarray, rtol: float) -> tuple[int, float]:
     """
     # region 8.5
     s = np.linalg.svd(Y, compute_uv=False)  # the singular values, largest first
-    kept = s[s > rtol * s[0]]  # the singular values that count
+    kept = s[s > rtol * s[0]]  # the singular values above the limit
     return len(kept), kept[0] / kept[-1]  # the rank and the condition number
     # endregion 8.5
 
@@ -163,8 +163,8 @@ def truncated_svd_fit(Y: np.ndarray, tau: np.ndarray, rtol: float) -> np.ndarray
     truncated_svd_fit([[1, 1], [2, 2]], [2, 4], 1e-9) -> [1, 1]
     """
     # region 8.6
-    U, s, Vt = np.linalg.svd(Y, full_matrices=False)  # the decomposition of Y
-    kept = s > rtol * s[0]  # the singular values that count
+    U, s, Vt = np.linalg.svd(Y, full_matrices=False)  # the SVD of Y
+    kept = s > rtol * s[0]  # the singular values above the limit
     return Vt[kept].T @ (U[:, kept].T @ tau / s[kept])  # the minimum-norm solution
     # endregion 8.6
 
@@ -182,10 +182,12 @@ def predict_with_sigma(
     row of 1 the prediction is 2, with a standard deviation of 0.57735.
     """
     # region 8.7
-    _, s, Vt = np.linalg.svd(Y, full_matrices=False)  # the decomposition of Y
-    kept = s > rtol * s[0]  # the singular values that count
+    _, s, Vt = np.linalg.svd(Y, full_matrices=False)  # the SVD of Y
+    kept = s > rtol * s[0]  # the singular values above the limit
     phi = truncated_svd_fit(Y, tau, rtol)  # the fitted parameters
-    noise = np.linalg.norm(tau - Y @ phi) / np.sqrt(len(tau) - kept.sum())  # the noise
+    noise = np.linalg.norm(tau - Y @ phi) / np.sqrt(  # the noise level
+        len(tau) - kept.sum()
+    )
     return (
         Y_new @ phi,  # the predicted torques
         noise * np.linalg.norm(Y_new @ Vt[kept].T / s[kept], axis=1),  # the sigmas
@@ -211,7 +213,9 @@ def identify_payload(
     weight[:, 3:, 0] = g  # the force of a unit mass
     weight[:, :3, 1:] = -skew(g) @ R_site  # the moments of a unit first moment
     rows = -np.swapaxes(J_site, 1, 2) @ weight  # the regressor of the payload
-    return np.linalg.lstsq(rows.reshape(-1, 4), extra.ravel(), rcond=None)[0]  # the fit
+    return np.linalg.lstsq(  # the least-squares solution
+        rows.reshape(-1, 4), extra.ravel(), rcond=None
+    )[0]
     # endregion 8.8
 
 
@@ -229,8 +233,10 @@ def min_pseudo_inertia_eig(phi: np.ndarray) -> float:
     # region 8.9
     about = spatial_inertia_from_params(phi)[:3, :3]  # the inertia about the origin
     h = phi[1:4, None]  # the first moment of mass
-    spread = np.trace(about) / 2 * np.eye(3) - about  # the sum of m r r^T
-    return np.linalg.eigvalsh(np.block([[spread, h], [h.T, phi[0]]]))[0]  # the smallest
+    spread = np.trace(about) / 2 * np.eye(3) - about  # S, the sum of m r r^T
+    return np.linalg.eigvalsh(  # the smallest eigenvalue
+        np.block([[spread, h], [h.T, phi[0]]])
+    )[0]
     # endregion 8.9
 
 

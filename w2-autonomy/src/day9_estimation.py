@@ -61,7 +61,7 @@ def quantise(q: np.ndarray, counts: float) -> np.ndarray:
     """
     # region 9.1
     step = 2.0 * np.pi / counts  # the angle of one count
-    return np.round(q / step) * step  # whole counts, in radians
+    return np.round(q / step) * step  # the angle of the whole counts
     # endregion 9.1
 
 
@@ -73,7 +73,7 @@ def backward_difference(q: np.ndarray, dt: float) -> np.ndarray:
     backward_difference([0, 0.1, 0.3], 0.1) -> [0, 1, 2]
     """
     # region 9.1
-    return np.append(0.0, np.diff(q) / dt)  # the differences over dt, after a first 0
+    return np.append(0.0, np.diff(q) / dt)  # the first 0 and the differences over dt
     # endregion 9.1
 
 
@@ -87,8 +87,10 @@ def delay_margin(kp: float, kd: float) -> float:
     delay_margin(400, 40) -> 0.03237. With critical damping it is 0.6474 / omega.
     """
     # region 9.2
-    w = np.sqrt((kd**2 + np.sqrt(kd**4 + 4.0 * kp**2)) / 2.0)  # the gain crossover
-    return np.arctan(kd * w / kp) / w  # the phase margin over the frequency
+    w = np.sqrt(  # the gain crossover frequency
+        (kd**2 + np.sqrt(kd**4 + 4.0 * kp**2)) / 2.0
+    )
+    return np.arctan(kd * w / kp) / w  # the phase lead divided by w
     # endregion 9.2
 
 
@@ -100,7 +102,7 @@ def low_pass(x: np.ndarray, dt: float, cutoff: float) -> np.ndarray:
     low_pass([0, 1, 1, 1], 0.002, 20) -> [0, 0.22223, 0.39508, 0.52951]
     """
     # region 9.3
-    alpha = 1.0 - np.exp(-2.0 * np.pi * cutoff * dt)  # the fraction reached after dt
+    alpha = 1.0 - np.exp(-2.0 * np.pi * cutoff * dt)  # the weight of the new sample
     y = [x[0]]  # the outputs, from the first sample on
     for now in x[1:]:
         y.append(y[-1] + alpha * (now - y[-1]))  # a step towards the new sample
@@ -154,7 +156,7 @@ def kalman_update(
     # region 9.5
     y = z - H @ x  # the innovation
     S = H @ P @ H.T + R  # the covariance of the innovation
-    inverse = np.linalg.inv(S)  # the inverse of that covariance
+    inverse = np.linalg.inv(S)  # the inverse of S
     K = P @ H.T @ inverse  # the Kalman gain
     return x + K @ y, P - K @ S @ K.T, y @ inverse @ y  # state, covariance and NIS
     # endregion 9.5
@@ -170,8 +172,8 @@ def nis_interval(n: int, m: int) -> np.ndarray:
     """
     # region 9.6
     c = 2.0 / (9.0 * n * m)  # the variance of the cube root of chi-square / (n m)
-    off = 1.96 * np.sqrt(c)  # the half width that holds 95 % of a Gaussian
-    return m * np.array([1.0 - c - off, 1.0 - c + off]) ** 3  # both ends, cubed again
+    off = 1.96 * np.sqrt(c)  # 1.96 standard deviations
+    return m * np.array([1.0 - c - off, 1.0 - c + off]) ** 3  # the ends of the interval
     # endregion 9.6
 
 
@@ -184,7 +186,7 @@ def lag1_autocorrelation(y: np.ndarray) -> float:
     """
     # region 9.7
     y = y - np.mean(y)  # the sequence without its mean
-    return y[1:] @ y[:-1] / (y @ y)  # products of neighbours over squares
+    return y[1:] @ y[:-1] / (y @ y)  # the sum of products over the sum of squares
     # endregion 9.7
 
 
@@ -202,9 +204,9 @@ def kinetic_energy_gradient(
     S = J_space.T  # the screw of each joint
     V = np.cumsum(S * qd[:, None], axis=0)  # the twist of each link
     momentum = (G @ V[:, :, None])[:, :, 0]  # the momentum of each link
-    carried = np.cumsum(momentum[::-1], axis=0)[::-1]  # that of link i and beyond
-    turned = (ad(S) @ V[:, :, None])[:, :, 0]  # the rate at which V_i rotates with S_i
-    return -np.sum(carried * turned, axis=1)  # the energy's change by a rotation back
+    carried = np.cumsum(momentum[::-1], axis=0)[::-1]  # the momentum of links i to 7
+    turned = (ad(S) @ V[:, :, None])[:, :, 0]  # the product ad(S_i) V_i
+    return -np.sum(carried * turned, axis=1)  # the gradient of the kinetic energy
     # endregion 9.8
 
 
@@ -225,7 +227,9 @@ def momentum_observer_step(
     gain 50: 50 and 0.
     """
     # region 9.9
-    known = tau + energy_grad - gravity - damping * qd  # the known torque before
+    known = (  # the known torque of the previous sample
+        tau + energy_grad - gravity - damping * qd
+    )
     integral = integral + (known + residual) * dt  # the momentum without the contact
     return gain * (momentum - integral), integral  # the residual and the integral
     # endregion 9.9

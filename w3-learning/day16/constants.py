@@ -27,7 +27,7 @@ numbers = Numbers(
 
 @numbers.add(
     "padding of the chunks of 20 demonstrations", "{:.0f} %",
-    chunk=between(2.0, 2.2, "K (K - 1) / 2 of the K n entries: (K - 1) / (2 n)"),
+    chunk=between(2.0, 2.2, "K (K - 1) / 2 of the K n entries of an episode: (K - 1) / (2 n)"),
     wait=between(0.85, 0.92, "(K - 1) / (2 n), and n grows from 68 to 76 rows"),
     demos=same("each episode has the same padding"),
     seed=same("each episode has the same length"),

@@ -275,6 +275,7 @@ def test_no_success_rate_shows_a_mistake(start, change):
     cells = [float(one.split(",")[0].replace("about", "")) for one in row(start)]
     assert found[0] == pytest.approx(cells[0], abs=ABOUT)
     assert found[1:] == pytest.approx(cells[1:], abs=0.11)
+    assert "with `noise = 0 noise + noise[0]`" in SENTENCES  # one_sample, no stars
 
 
 def across(action, episode, K):
@@ -284,8 +285,17 @@ def across(action, episode, K):
 
 def by_all(pred, target, mask):
     """Return the loss divided by all entries."""
-    loss, slope = chunking.masked_l1(pred, target, mask)
-    return loss * mask.mean(), slope * mask.mean()
+    error = (pred - target) * mask[:, :, None]
+    return np.abs(error).sum() / error.size, np.sign(error) / error.size
+
+
+def test_a_loss_by_all_entries_is_too_small_by_the_padding():
+    pred, target = np.random.default_rng(0).normal(size=(2, 5, 3, 2))
+    mask = np.arange(5)[:, None] + np.arange(3) < 5
+    right, wrong = (f(pred, target, 1.0 * mask) for f in (lab.masked_l1, by_all))
+    for one, other in zip(right, wrong, strict=True):
+        assert other == pytest.approx(one * mask.mean())
+    assert "are too small by the fraction of padding" in SENTENCES
 
 
 @pytest.mark.kit

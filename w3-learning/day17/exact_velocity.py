@@ -117,12 +117,13 @@ def _(x, t, means, sigma, weights):
     rooted = posterior(x, *roots, means, sigma, weights)
     back = posterior(x, 1 - t, t, means, sigma, weights)
     return {
-        "data-width-forgotten": velocity(*posterior(*given, wide=False)),
+        # Without the data's width the variance is 0 at t = 1.
+        "data-width-forgotten": lambda: velocity(*posterior(*given, wide=False)),
         "clean": clean,
         "minus-x": clean - x,
         "distance-so-far": t * right,
         "division-by-0 2": right if t else np.nan * x,
-        "data-width-forgotten 2": velocity(
+        "data-width-forgotten 2": lambda: velocity(
             posterior(*given, wide=False)[0], off, variance
         ),
         "x-not-deviation": np.sum(prob * means, 1)

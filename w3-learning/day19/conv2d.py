@@ -27,6 +27,29 @@ row.cases(
         not np.array_equal(kernel, kernel[::-1, ::-1])
     ),
 )
+row.cases(
+    a_square_kernel=lambda image, kernel, stride: len(set(kernel.shape)) == 1,
+    a_kernel_that_is_not_square=lambda image, kernel, stride: (
+        len(set(kernel.shape)) == 2
+    ),
+)
+
+
+def correlated(image, kernel, stride):
+    """Return the cross-correlation, which is empty where no window fits."""
+    p, q = kernel.shape
+    out = np.zeros([(a - b) // stride + 1 for a, b in zip(image.shape, (p, q))])
+    for i, j in np.ndindex(out.shape):
+        y, x = i * stride, j * stride
+        out[i, j] = np.sum(image[y : y + p, x : x + q] * kernel)
+    return out
+
+
+def apart(image, kernel, m, n):
+    """Return the sums of m x n windows that are as far apart as the kernel is large."""
+    p, q = kernel.shape
+    wide = np.pad(image, ((0, m * p), (0, n * q)))[: m * p, : n * q]
+    return np.einsum("iajb,ab->ij", wide.reshape(m, p, n, q), kernel)
 
 
 @row.wrongs
@@ -36,25 +59,87 @@ def _(image, kernel, stride):
       cross-correlation
     mean: your code divides each output by the number of entries of the kernel. Return
       the sum of the products without this division
-    from-the-end: your code aligns the last window with the end of the image. Align the
-      first window with pixel [0, 0], so that any unused pixels are at the end
+    by-the-kernels-sum: your code divides each output by the sum of the kernel's
+      entries. Return the sum of the products without this division
+    transposed: your code transposes the kernel. Multiply entry [a, b] of the kernel by
+      pixel [a, b] of the window
+    output-transposed: your output has one row for each column of windows. Output [i, j]
+      belongs to the window that begins at pixel [i stride, j stride]
+    """
+    right = correlated(image, kernel, stride)
+    return {
+        "flipped": correlated(image, kernel[::-1, ::-1], stride),
+        "mean": right / kernel.size,
+        "by-the-kernels-sum": right / kernel.sum(),
+        "transposed": lambda: correlated(image, kernel.T, stride),
+        "output-transposed": right.T,
+    }
+
+
+@row.wrongs
+def _(image, kernel, stride):
+    """from-the-end: your code aligns the last window with the end of the image. Align
+      the first window with pixel [0, 0], so that any unused pixels are at the end
     padded: your code pads the image with zeros, so it includes windows that extend
       beyond the image. Return one output for each window that lies inside the image
+    padded 2: your code adds a border of zeros around the image, so it includes windows
+      that extend beyond the image. Return one output for each window that lies inside
+      the image
+    across-the-edge: your code includes windows that begin inside the image and extend
+      beyond its last row or column. Return one output for each window that lies inside
+      the image
+    one-less: your output lacks the last row and the last column of windows. If the
+      kernel is as large as the image, one window fits, so count the first window too
+    counted-before-the-division: your code adds 1 before it divides by the stride and
+      rounds down, so windows are missing if pixels are left over. The first window
+      always fits, so add 1 after the division
+    without-the-last: your code omits windows that end at the last row or column of the
+      image. These windows lie inside the image, so include them
     """
-    p, q = kernel.shape
-
-    def by(some, kernel):
-        windows = np.lib.stride_tricks.sliding_window_view(some, (p, q))
-        return np.einsum("ijab,ab->ij", windows[::stride, ::stride], kernel)
-
-    rest = tuple((a - b) % stride for a, b in zip(image.shape, (p, q)))
-    low = (p - 1) // 2, (q - 1) // 2
-    around = [(a, b - 1 - a) for a, b in zip(low, (p, q))]
+    right = correlated(image, kernel, stride)
+    sizes = list(zip(image.shape, kernel.shape))
+    rest = [(a - b) % stride for a, b in sizes]
+    around = [((b - 1) // 2, b // 2) for _, b in sizes]
+    border = [(b // 2, b // 2) for _, b in sizes]
+    beyond = [(0, (b - a) % stride) for a, b in sizes]
+    before = [(a - b + 1) // stride for a, b in sizes]
+    early = [-(-(a - b) // stride) for a, b in sizes]
     return {
-        "flipped": by(image, kernel[::-1, ::-1]),
-        "mean": by(image, kernel) / kernel.size,
-        "from-the-end": by(image[rest[0] :, rest[1] :], kernel),
-        "padded": by(np.pad(image, around), kernel),
+        "from-the-end": correlated(image[rest[0] :, rest[1] :], kernel, stride),
+        "padded": correlated(np.pad(image, around), kernel, stride),
+        "padded 2": correlated(np.pad(image, border), kernel, stride),
+        "across-the-edge": correlated(np.pad(image, beyond), kernel, stride),
+        "one-less": right[:-1, :-1],
+        "counted-before-the-division": right[: before[0], : before[1]],
+        "without-the-last": right[: early[0], : early[1]],
+    }
+
+
+@row.wrongs
+def _(image, kernel, stride):
+    """stride-ignored: your code ignores the stride. Use only every stride-th window
+      along each axis
+    at-i-j: the window of your output [i, j] begins at pixel [i, j]. This window should
+      begin at pixel [i stride, j stride]
+    stride-along-y-only: your code applies the stride to the rows of the image, but not
+      to its columns. Windows beside each other should also be a stride apart
+    stride-along-x-only: your code applies the stride to the columns of the image, but
+      not to its rows. Windows below each other should also be a stride apart
+    apart: your code moves the window by the size of the kernel. Move the window by the
+      stride instead, so that windows can overlap
+    sampled-first: your code discards the pixels between the strides before it applies
+      the kernel. The stride is the distance between windows, and each window contains
+      neighbouring pixels of the image
+    """
+    m, n = correlated(image, kernel, stride).shape
+    each = correlated(image, kernel, 1)
+    return {
+        "stride-ignored": each,
+        "at-i-j": each[:m, :n],
+        "stride-along-y-only": each[::stride],
+        "stride-along-x-only": each[:, ::stride],
+        "apart": apart(image, kernel, m, n),
+        "sampled-first": lambda: correlated(image[::stride, ::stride], kernel, 1),
     }
 
 

@@ -35,6 +35,10 @@ row.cases(
     ),
     windows_apart=lambda image, kernel, stride, d: stride >= max(kernel.shape),
 )
+row.cases(
+    a_stride_of_1=lambda image, kernel, stride, d: stride == 1,
+    a_larger_stride=lambda image, kernel, stride, d: stride > 1,
+)
 
 
 def windows(image, kernel, stride):
@@ -44,12 +48,16 @@ def windows(image, kernel, stride):
 
 
 def of_image(image, kernel, stride, d, added=True):
-    """Return the gradient of the image; added=False writes over what was there."""
+    """Return the gradient of the image; added=False writes over what was there.
+
+    The kernel is (p, q), or another one for each window, (m, n, p, q).
+    """
     total = np.zeros(image.shape)
-    p, q = kernel.shape
+    p, q = kernel.shape[-2:]
+    each = np.broadcast_to(kernel, (*d.shape, p, q))
     for (i, j), one in np.ndenumerate(d):
         at = np.s_[i * stride : i * stride + p, j * stride : j * stride + q]
-        total[at] = one * kernel + (total[at] if added else 0)
+        total[at] = one * each[i, j] + (total[at] if added else 0)
     return total
 
 
@@ -58,17 +66,26 @@ def _(image, kernel, stride, d):
     """kernel-flipped: your code flips the gradient with respect to the kernel along
       both axes. Entry [a, b] of this gradient should be the sum of d times pixel [a, b]
       of each window
-    image-by-flipped: your code uses the flipped kernel for the gradient with respect to
-      the image. Add d[i, j] times the unflipped kernel to the entries of the gradient
-      in the window of output [i, j]
+    image-by-flipped: your gradient with respect to the image is right for the kernel
+      flipped along both axes. Add d[i, j] times the unflipped kernel to the entries of
+      the gradient in the window of output [i, j]. If you correlate d with the kernel
+      instead, this correlation needs the flipped kernel
     overwritten: your code overwrites the gradient with respect to the image where
       windows overlap. Add the contributions of all windows that contain a pixel instead
+    averaged: your code averages the contributions to a pixel that lies in several
+      windows. Add these contributions instead, because each output depends on the pixel
     divided: your code divides both gradients by the number of outputs. The argument d
       is already the gradient of the loss with respect to the output, so omit this
       division
+    order: your function returns the gradient with respect to the image first. Return
+      the gradient with respect to the kernel first
+    last-window: your gradient with respect to the kernel contains only the contribution
+      of the last window. Add the contributions of all windows
     """
-    of_kernel = np.einsum("ijab,ij->ab", windows(image, kernel, stride), d)
+    seen = windows(image, kernel, stride)
+    of_kernel = np.einsum("ijab,ij->ab", seen, d)
     right = of_image(image, kernel, stride, d)
+    counts = of_image(image, np.ones(kernel.shape), stride, np.ones(d.shape))
     return {
         "kernel-flipped": (of_kernel[::-1, ::-1], right),
         "image-by-flipped": (
@@ -76,7 +93,41 @@ def _(image, kernel, stride, d):
             of_image(image, kernel[::-1, ::-1], stride, d),
         ),
         "overwritten": (of_kernel, of_image(image, kernel, stride, d, added=False)),
+        "averaged": (of_kernel, right / np.maximum(counts, 1)),
         "divided": (of_kernel / d.size, right / d.size),
+        "order": (right, of_kernel),
+        "last-window": (d[-1, -1] * seen[-1, -1], right),
+    }
+
+
+@row.wrongs
+def _(image, kernel, stride, d):
+    """stride-only-for-image: your code applies the stride to the gradient with respect
+      to the image, but not to the gradient with respect to the kernel. Output [i, j]
+      uses the window that begins at pixel [i stride, j stride]
+    stride-only-for-kernel: your code applies the stride to the gradient with respect to
+      the kernel, but not to the gradient with respect to the image. Output [i, j] uses
+      the window that begins at pixel [i stride, j stride]
+    stride-forgotten: your code ignores the stride. Output [i, j] uses the window that
+      begins at pixel [i stride, j stride]
+    windows-for-image: your code adds d times the windows of the image to the gradient
+      with respect to the image. The derivative of an output with respect to a pixel is
+      an entry of the kernel
+    kernel-for-kernel: your code adds d times the kernel to the gradient with respect to
+      the kernel. The derivative of an output with respect to an entry of the kernel is
+      a pixel of the window
+    """
+    seen = windows(image, kernel, stride)
+    of_kernel = np.einsum("ijab,ij->ab", seen, d)
+    right = of_image(image, kernel, stride, d)
+    beside = windows(image, kernel, 1)[: len(d), : d.shape[1]]
+    by_beside = np.einsum("ijab,ij->ab", beside, d), of_image(image, kernel, 1, d)
+    return {
+        "stride-only-for-image": (by_beside[0], right),
+        "stride-only-for-kernel": (of_kernel, by_beside[1]),
+        "stride-forgotten": by_beside,
+        "windows-for-image": (of_kernel, of_image(image, seen, stride, d)),
+        "kernel-for-kernel": (d.sum() * kernel, right),
     }
 
 

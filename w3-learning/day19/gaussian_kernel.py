@@ -30,14 +30,31 @@ def _(sigma, half):
       of the entries instead
     rows-normalised: your code normalises each row of the kernel separately. All entries
       of the kernel together should sum to 1, so divide by the sum of the whole kernel
+    added: your code adds the two factors of each entry. The Gaussian in the plane is
+      the product of a factor along x and a factor along y
+    square-of-the-sum: your code squares x + y. The squared distance in the plane is x^2
+      + y^2
+    one-short: your kernel has 2 * half rows and columns, and its last distance from the
+      middle is half - 1. It should have 2 * half + 1 rows and columns, from -half to
+      half
+    from-minus-1-to-1: your code measures distances on a scale from -1 to 1. sigma is in
+      pixels, so count the distances from the middle in pixels, from -half to half
     """
     at = np.arange(-half, half + 1)
     d2 = at**2 + at[:, None] ** 2
     g = np.exp(-d2 / (2 * sigma**2))
+    row = np.exp(-(at**2) / (2 * sigma**2))
+    slanted = np.exp(-((at + at[:, None]) ** 2) / (2 * sigma**2))
+    short = g[:-1, :-1]
+    scaled = g ** (1 / half**2) if half else g
     return {
         "not-normalised": g,
         "by-the-integral": g / (2 * np.pi * sigma**2),
         "rows-normalised": g / g.sum(axis=1, keepdims=True),
+        "added": np.add.outer(row, row) / np.add.outer(row, row).sum(),
+        "square-of-the-sum": slanted / slanted.sum(),
+        "one-short": short / short.sum(),
+        "from-minus-1-to-1": scaled / scaled.sum(),
     }
 
 

@@ -45,6 +45,18 @@ def _(centres, radii, xs, ys):
     last-wins: your code replaces the height of an earlier sphere even where the later
       sphere is lower. A ray from above stops at the highest sphere, so use the largest
       height
+    lowest: your code returns the smallest of the spheres' heights at each pixel. A ray
+      from above stops at the highest sphere, so use the largest height
+    first-hit: your code returns the height of the first sphere in the list that a ray
+      hits. A ray from above stops at the highest sphere, so compare the heights of all
+      spheres
+    nearest-centre: your code considers only the sphere whose centre is nearest to the
+      ray. The ray can hit another sphere higher up, or miss only the nearest one, so
+      compare the heights of all spheres
+    sum-of-distances: your code adds the distances along x and along y. The distance in
+      the plane is the hypotenuse, so add their squares
+    transposed: your image has one row for each entry of xs. Pixel [i, j] is at (xs[j],
+      ys[i]), so a row should belong to an entry of ys
     """
     dx = xs - centres[:, 0, None, None]
     dy = ys[:, None] - centres[:, 1, None, None]
@@ -52,14 +64,26 @@ def _(centres, radii, xs, ys):
     r = radii[:, None, None]
     hit = d2 < r**2
     square = np.maximum(r**2 - d2, 0)
+    heights = np.sqrt(square)
     last = np.zeros(square.shape[1:])
-    for one, some in zip(square, hit):
-        last[some] = np.sqrt(one[some])
+    for one, some in zip(heights, hit):
+        last[some] = one[some]
+
+    def of_sphere(chosen):
+        return np.take_along_axis(heights, chosen[None], axis=0)[0]
+
     return {
-        "added": np.sqrt(square).sum(axis=0),
+        "added": heights.sum(axis=0),
         "flat": (hit * r).max(axis=0),
         "cone": np.maximum(r - np.sqrt(d2), 0).max(axis=0),
         "last-wins": last,
+        "lowest": heights.min(axis=0),
+        "first-hit": of_sphere(hit.argmax(axis=0)),
+        "nearest-centre": of_sphere(d2.argmin(axis=0)),
+        "sum-of-distances": np.sqrt(
+            np.maximum(r**2 - (abs(dx) + abs(dy)) ** 2, 0).max(axis=0)
+        ),
+        "transposed": heights.max(axis=0).T,
     }
 
 

@@ -9,7 +9,7 @@ def pairs(rng):
         ((5, 4), (2, 3), 1),
         ((4, 4), (3, 3), 1),
         ((7, 6), (2, 2), 2),  # pixels are left over
-        ((6, 8), (3, 2), 3),
+        ((7, 8), (3, 2), 3),
         ((3, 5), (3, 5), 2),  # one window
         ((3, 4), (1, 1), 1),  # a kernel of one entry
     ):
@@ -18,9 +18,9 @@ def pairs(rng):
         int(n) for n in rng.integers((5, 5, 2, 2, 1), (8, 8, 4, 4, 3))
     )
     yield rng.numbers(-2, 2, h, w), rng.numbers(-1, 1, p, q), stride
-    side = rng.numbers(-1, 1, 3)
-    even = np.outer(side + side[::-1], side + side[::-1])
-    yield rng.numbers(-2, 2, 5, 6), even, 1  # a symmetric kernel
+    some = rng.numbers(-1, 1, 3, 3)
+    even = some + some[::-1, ::-1]
+    yield rng.numbers(-2, 2, 5, 6), even, 1  # symmetric, but not its own transpose
 
 
 def maps(rng):
@@ -46,3 +46,26 @@ def maps(rng):
         rng.numbers(-2, 2, h),
         float(rng.numbers(0.4, 2)),
     )
+
+
+def large_maps(rng):
+    """Yield maps whose entries exceed what exp can represent.
+
+    All entries of a map are large, with either sign, or those of one map only, or one
+    entry of a map.
+    """
+    for some, *others in list(maps(rng))[:3]:
+        yield some + 3000.0, *others
+        yield some - 3000.0, *others
+        yield some + 3000.0 * np.arange(len(some))[:, None, None], *others
+        one = some.copy()
+        one[:, 0, 0] += 3000.0
+        yield one, *others
+
+
+def dark_maps(rng):
+    """Yield maps with entries of -inf, which have the weight 0."""
+    for some, *others in list(maps(rng))[:3]:
+        dark = some.copy()
+        dark[:, 0, 1:] = -np.inf
+        yield dark, *others

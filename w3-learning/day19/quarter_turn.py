@@ -6,7 +6,7 @@ from labkit.judge import Row, Vector
 from labkit.judge.kinds import Kind
 
 row = Row((
-    Kind((None, None, None), called="the images"),
+    Kind((None, None, None), called="the array of images"),
     Vector((2,), called="the action"),
 ))  # fmt: skip
 
@@ -38,17 +38,42 @@ def _(images, action, k):
       increases with y, so np.rot90 needs -k to rotate the images from x towards y
     mirrored: your code mirrors the images instead of rotating them. A mirrored image
       differs from a rotated image by a flip along one axis, so add this flip
+    mirrored 2: your code transposes the images, which mirrors them at a diagonal. A
+      quarter turn is a transpose and a flip along one axis, so add this flip
+    action-turned-once: your code rotates the action by one quarter turn for every k.
+      Rotate the action by k quarter turns, like the images
+    x-overwritten: your code computes the new y of the action from the new x. Use the
+      old x, which your code has overwritten
+    sign-of-k-lost: your code rotates in the same direction for k and -k. For a negative
+      k, rotate from y towards x
+    degrees: your code passes 90 k to cos and sin, which take radians. A quarter turn is
+      pi / 2
+    first-axes: your code rotates the axes 0 and 1 of the images. Axis 0 counts the
+      channels, so rotate the axes 1 and 2
     """
     right = np.rot90(images, -k, (1, 2))
     x, y = action
     turned = np.array([(x, y), (-y, x), (-x, -y), (y, -x)][k % 4])
     back = np.array([(x, y), (y, -x), (-x, -y), (-y, x)][k % 4])
     mirror = images[:, :, ::-1] if k % 4 == 2 else images.transpose(0, 2, 1)
+    over = np.array(action)
+    for _ in range(k % 4):
+        over[:] = -over[1], -over[1]
+    c, s = np.cos(90 * k), np.sin(90 * k)
     return {
         "action-not-turned": (right, action),
         "action-the-other-way": (right, back),
         "image-the-other-way": (np.rot90(images, k, (1, 2)), turned),
         "mirrored": (images if k % 4 == 0 else mirror, turned),
+        "mirrored 2": (images.transpose(0, 2, 1) if k % 2 else images, turned),
+        "action-turned-once": (right, np.array([-y, x])),
+        "x-overwritten": (right, over),
+        "sign-of-k-lost": (
+            np.rot90(images, -abs(k), (1, 2)),
+            turned if k > 0 else back,
+        ),
+        "degrees": (right, np.array([c * x - s * y, s * x + c * y])),
+        "first-axes": (np.rot90(images, -k), turned),
     }
 
 

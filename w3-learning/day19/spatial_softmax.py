@@ -3,8 +3,9 @@
 import numpy as np
 
 from labkit.judge import HeldOut, Matrix, Row
+from robo47.pixels import spatial_softmax
 
-from .images import maps
+from .images import dark_maps, large_maps, maps
 
 
 def complex_maps(rng):
@@ -13,22 +14,23 @@ def complex_maps(rng):
         yield some + 1j * rng.numbers(-0.5, 0.5, *some.shape), *others
 
 
-def large_maps(rng):
-    """Yield maps whose entries exceed what exp can represent, both signs."""
-    for some, *others in list(maps(rng))[:3]:
-        yield some + 3000.0, *others
-        yield some - 3000.0, *others
-
-
 row = Row(
     Matrix((None, None)),
     held_out=[
         HeldOut(
             "overflows",
             "Your function is right for small entries. For large entries, exp "
-            "overflows or all weights are 0, so your result is NaN. Subtract the "
-            "largest entry of each map before exp: the weights do not change.",
+            "overflows or all weights of a map are 0, so your result is NaN. Subtract "
+            "each map's own largest entry, and divide the difference by the "
+            "temperature: the weights do not change.",
             large_maps,
+        ),
+        HeldOut(
+            "not-for-minus-infinity",
+            "Your function is right for finite entries, but not for entries of -inf. "
+            "Such an entry should have the weight 0. You can leave it as it is, "
+            "because exp(-inf) is 0.",
+            dark_maps,
         ),
         HeldOut(
             "imaginary-lost",
@@ -46,9 +48,6 @@ row = Row(
 def _(rng):
     yield np.log([[[1.0, 3]]]), np.array([0.0, 1]), np.array([5.0]), 1.0
     yield from maps(rng)
-    dark = rng.numbers(-1, 1, 2, 2, 3)
-    dark[:, 0, 1:] = -np.inf  # pixels of the weight 0
-    yield dark, np.array([0.0, 1, 3]), np.array([-1.0, 2]), 0.6
 
 
 row.cases(
@@ -72,6 +71,12 @@ def _(maps, xs, ys, temperature):
       everywhere
     x-y-swapped: your result is (y, x). Return x first, where pixel [i, j] is at x =
       xs[j] and y = ys[i]
+    over-the-maps: the weights of each pixel sum to 1 over the maps. The weights of each
+      map should sum to 1, so divide by the sum over the rows and columns
+    indices: your code averages the indices of rows and columns. Average the
+      coordinates xs and ys instead
+    softmax-of-sums: your code sums the map along one axis before exp. Apply exp to each
+      entry of the map, and sum the weights afterwards
     """
     z = maps / temperature
     most = z.max(axis=(1, 2), keepdims=True)
@@ -79,8 +84,14 @@ def _(maps, xs, ys, temperature):
     p = e / e.sum(axis=(1, 2), keepdims=True)
     rows = np.exp(z - z.max(axis=2, keepdims=True))
     rows = rows / rows.sum(axis=2, keepdims=True)
+    over = np.exp(z - z.max(axis=0))
+    over = over / over.sum(axis=0)
     together = np.exp(z - z.max())
     best = maps.reshape(len(maps), -1).argmax(axis=1)
+
+    def soft(sums):
+        e = np.exp(sums - sums.max(axis=1, keepdims=True))
+        return e / e.sum(axis=1, keepdims=True)
 
     def at(p):
         return np.stack([(p * xs).sum((1, 2)), (p * ys[:, None]).sum((1, 2))], axis=1)
@@ -90,7 +101,44 @@ def _(maps, xs, ys, temperature):
         "maps-together": at(together / together.sum()),
         "argmax": np.stack([xs[best % len(xs)], ys[best // len(xs)]], axis=1),
         "x-y-swapped": at(p)[:, ::-1],
+        "over-the-maps": at(over),
+        "indices": np.stack(
+            [p.sum(axis=1) @ np.arange(len(xs)), p.sum(axis=2) @ np.arange(len(ys))],
+            axis=1,
+        ),
+        "softmax-of-sums": np.stack(
+            [soft(z.sum(axis=1)) @ xs, soft(z.sum(axis=2)) @ ys], axis=1
+        ),
     }
+
+
+SMALL = "exp does not overflow for the lab's maps"
+
+
+@row.wrong("overflows", hidden=SMALL)  # Nothing is subtracted.
+def _(maps, xs, ys, temperature):
+    e = np.exp(maps / temperature)
+    p = e / e.sum(axis=(1, 2), keepdims=True)
+    return np.stack([p.sum(axis=1) @ xs, p.sum(axis=2) @ ys], axis=1)
+
+
+@row.wrong("overflows", hidden=SMALL)  # The largest entry of all maps is subtracted.
+def _(maps, xs, ys, temperature):
+    e = np.exp((maps - maps.max()) / temperature)
+    p = e / e.sum(axis=(1, 2), keepdims=True)
+    return np.stack([p.sum(axis=1) @ xs, p.sum(axis=2) @ ys], axis=1)
+
+
+@row.wrong("overflows", hidden=SMALL)  # The mean is subtracted.
+def _(maps, xs, ys, temperature):
+    e = np.exp((maps - maps.mean(axis=(1, 2), keepdims=True)) / temperature)
+    p = e / e.sum(axis=(1, 2), keepdims=True)
+    return np.stack([p.sum(axis=1) @ xs, p.sum(axis=2) @ ys], axis=1)
+
+
+@row.wrong("not-for-minus-infinity", hidden="the lab's maps are finite")
+def _(maps, xs, ys, temperature):
+    return spatial_softmax(np.where(np.isinf(maps), 0, maps), xs, ys, temperature)
 
 
 row.at_least_0(temperature="a divisor above 0")

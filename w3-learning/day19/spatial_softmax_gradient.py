@@ -2,20 +2,45 @@
 
 import numpy as np
 
-from labkit.judge import Row
+from labkit.judge import HeldOut, Row
 from labkit.judge.kinds import Kind
+from robo47.pixels import spatial_softmax_gradient
 
-from .images import maps
+from .images import dark_maps, large_maps, maps
 
-row = Row(Kind((None, None, None)))
+
+def with_d(rng, calls):
+    """Yield calls of `spatial_softmax`, each with a gradient of the loss."""
+    for some, *others in calls:
+        yield some, *others, rng.numbers(-2, 2, len(some), 2)
+
+
+row = Row(
+    Kind((None, None, None)),
+    held_out=[
+        HeldOut(
+            "overflows",
+            "Your function is right for small entries. For large entries, exp "
+            "overflows or all weights of a map are 0, so your result is NaN. Subtract "
+            "each map's own largest entry, and divide the difference by the "
+            "temperature, as in task 19.5.",
+            lambda rng: with_d(rng, large_maps(rng)),
+        ),
+        HeldOut(
+            "not-for-minus-infinity",
+            "Your function is right for finite entries, but not for entries of -inf. "
+            "Such an entry has the weight 0, so its gradient should be 0.",
+            lambda rng: with_d(rng, dark_maps(rng)),
+        ),
+    ],
+)
 
 
 @row.inputs
 def _(rng):
     one = np.array([[1.0, 0]])
     yield np.log([[[1.0, 3]]]), np.array([0.0, 1]), np.array([5.0]), 1.0, one
-    for some, *others in maps(rng):
-        yield some, *others, rng.numbers(-2, 2, len(some), 2)
+    yield from with_d(rng, maps(rng))
 
 
 row.cases(
@@ -35,16 +60,49 @@ def _(maps, xs, ys, temperature, d):
     p-1-minus-p: your code uses only the factor p (1 - p), the derivative of a weight p
       with respect to its own softmax input. The other weights change too, so include
       their derivatives
+    plain-mean: your code subtracts the mean of d_x x + d_y y with equal weights, where
+      (d_x, d_y) is the map's row of d. Subtract the mean with the softmax weights, the
+      expected value
+    only-x-centred: your code subtracts the expected value of d_x x, but not of d_y y,
+      where (d_x, d_y) is the map's row of d. Subtract the expected value of their sum
+    only-y-centred: your code subtracts the expected value of d_y y, but not of d_x x,
+      where (d_x, d_y) is the map's row of d. Subtract the expected value of their sum
+    mean-without-d: your code subtracts the expected value of x + y. Subtract the
+      expected value of d_x x + d_y y, where (d_x, d_y) is the map's row of d
+    maps-together: your code subtracts the sum of the expected values of all maps. A
+      map's weights depend on this map alone, so subtract its own expected value
     """
     e = np.exp((maps - maps.max(axis=(1, 2), keepdims=True)) / temperature)
     p = e / e.sum(axis=(1, 2), keepdims=True)
     at = d[:, 0, None, None] * xs + d[:, 1, None, None] * ys[:, None]
     centred = at - (p * at).sum(axis=(1, 2), keepdims=True)
+    plain = (p * (xs + ys[:, None])).sum(axis=(1, 2), keepdims=True)
+    x = (p * xs).sum(axis=(1, 2)) * d[:, 0]  # its part of the expected value
+    y = (p * ys[:, None]).sum(axis=(1, 2)) * d[:, 1]
     return {
         "mean-not-taken-off": p * at / temperature,
         "temperature-forgotten": p * centred,
         "p-1-minus-p": p * (1 - p) * at / temperature,
+        "plain-mean": p * (at - at.mean(axis=(1, 2), keepdims=True)) / temperature,
+        "only-x-centred": p * (at - x[:, None, None]) / temperature,
+        "only-y-centred": p * (at - y[:, None, None]) / temperature,
+        "mean-without-d": p * (at - plain) / temperature,
+        "maps-together": p * (at - np.sum(x + y)) / temperature,
     }
+
+
+@row.wrong("overflows", hidden="exp does not overflow for the lab's maps")
+def _(maps, xs, ys, temperature, d):
+    p = np.exp(maps / temperature)
+    p = p / p.sum(axis=(1, 2), keepdims=True)
+    at = d[:, 0, None, None] * xs + d[:, 1, None, None] * ys[:, None]
+    return p * (at - (p * at).sum(axis=(1, 2), keepdims=True)) / temperature
+
+
+@row.wrong("not-for-minus-infinity", hidden="the lab's maps are finite")
+def _(maps, xs, ys, temperature, d):
+    finite = np.where(np.isinf(maps), 0, maps)
+    return spatial_softmax_gradient(finite, xs, ys, temperature, d)
 
 
 row.at_least_0(temperature="a divisor above 0")

@@ -14,6 +14,7 @@ def problems(rng):
         (3, 2, 0.0, 4),
         (1, 1, 1.5, 4),
         (3, 1, 0.6, 5),
+        (2, 2, 0.7, 3),
     ):
         yield problem(rng, k, m, std, T)
 
@@ -32,13 +33,23 @@ def positive(rng, n):
     return (np.eye(n) + root + root.T).round(4) if n > 1 else rng.numbers(0.5, 2, 1, 1)
 
 
-def moments(K, std, A, B, S, T, noise=True):
-    """Return E[x x^T] before each of T steps, and after the last."""
+def moments(K, std, A, B, S, T, noise=True, to_state=None):
+    """Return E[x x^T] before each of T steps, and after the last.
+
+    The noise reaches the state by `to_state`, by default B.
+    """
     M = A - B @ K
+    by = B if to_state is None else to_state
     out = [S]
     for _ in range(T):
-        out.append(M @ out[-1] @ M.T + noise * std**2 * B @ B.T)
+        out.append(M @ out[-1] @ M.T + noise * std**2 * by @ by.T)
     return out
+
+
+def shared_noise(K, std, A, B, S, T):
+    """Return E[x x^T] before each of T steps if all inputs have the same noise."""
+    one = B.sum(axis=1, keepdims=True)
+    return moments(K, std, A, B, S, T, to_state=one)[:-1]
 
 
 def cart(rng):

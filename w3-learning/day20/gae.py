@@ -32,12 +32,13 @@ def _(rng):
     yield ones, *values, *ends(2, 1, cut=[(1, 0)]), 0.5, 0.5
     yield ones, *values, *ends(2, 1, true=[(1, 0)]), 0.5, 0.5
     yield episodes(rng, 5, 2, 0.9, 0.8, true=[(1, 0), (4, 1)], cut=[(4, 0), (2, 1)])
-    yield episodes(rng, 4, 3, 0.8, 0.5, true=[(1, 0)], cut=[(1, 2), (3, 1)])
+    last = [(3, 0), (3, 1)]
+    yield episodes(rng, 4, 3, 0.8, 0.5, true=[(1, 0), (3, 2)], cut=[(1, 2), *last])
     yield episodes(rng, 1, 2, 0.7, 0.6, true=[(0, 1)], cut=[(0, 0)])
-    yield episodes(rng, 4, 2, 0.6, 0.9)  # the rows stop before the episode does
-    yield episodes(rng, 4, 2, 1.0, 0.7, true=[(2, 0)], cut=[(1, 1)])
-    yield episodes(rng, 4, 2, 0.9, 1.0, true=[(1, 1)], cut=[(2, 0)])
-    yield episodes(rng, 3, 2, 0.9, 0.0, true=[(1, 1)], cut=[(2, 0)])
+    yield episodes(rng, 4, 2, 0.6, 0.9, cut=last)
+    yield episodes(rng, 4, 2, 1.0, 0.7, true=[(2, 0)], cut=[(1, 1), *last])
+    yield episodes(rng, 4, 2, 0.9, 1.0, true=[(1, 1), *last], cut=[(2, 0)])
+    yield episodes(rng, 4, 2, 0.9, 0.0, true=[(1, 1)], cut=[(2, 0), *last])
 
 
 row.cases(
@@ -47,15 +48,29 @@ row.cases(
     episodes_that_are_cut_off=lambda r, v, w, terminated, ended, g, lam: bool(
         ended.any() and not terminated.any()
     ),
-    episodes_without_an_end=lambda r, v, w, terminated, ended, g, lam: not ended.any(),
+)
+row.cases({
+    "columns of one episode": lambda r, v, w, terminated, ended, g, lam: (
+        not ended[:-1].any()
+    ),
+    "columns of several episodes": lambda r, v, w, terminated, ended, g, lam: bool(
+        ended[:-1].any()
+    ),
+})  # fmt: skip
+row.cases(
+    a_lambda_of_1=lambda r, v, w, terminated, ended, g, lam: lam == 1,
+    a_lambda_below_1=lambda r, v, w, terminated, ended, g, lam: lam < 1,
 )
 
 
 @row.rare
 def _(rng):
-    yield episodes(rng, 4, 2, 0.8, 0.7, true=[(1, 0), (2, 1)])
-    yield episodes(rng, 4, 2, 0.8, 0.7, cut=[(1, 0), (2, 1)])
-    yield episodes(rng, 3, 2, 0.8, 0.7)
+    last = [(3, 0), (3, 1)]
+    yield episodes(rng, 4, 2, 0.8, 0.7, true=[(1, 0), (2, 1), *last])
+    yield episodes(rng, 4, 2, 0.8, 0.7, cut=[(1, 0), (2, 1), *last])
+    yield episodes(rng, 4, 2, 0.8, 0.7, cut=last)
+    yield episodes(rng, 4, 2, 0.8, 0.7, true=last)
+    yield episodes(rng, 4, 2, 0.8, 1.0, true=[(1, 0), *last], cut=[(2, 1)])
 
 
 def backwards(delta, factor):
@@ -83,10 +98,27 @@ def _(reward, value, next_value, terminated, ended, gamma, lam):
       worth 0
     next-rows-value: your code uses the value of the next row instead of next_value. Use
       next_value, because the row after an end belongs to another episode
-    lambda-forgotten: your code multiplies the advantage of the next row by gamma only.
-      Multiply this advantage by gamma * lam instead
+    lambda-forgotten: your code omits lam, so its result is the advantage for lam = 1.
+      Multiply the advantage of the next row by gamma * lam
     gamma-not-in-the-sum: your code multiplies the advantage of the next row by lam
       only. Multiply this advantage by gamma * lam instead
+    stopped-for-all: your code stops the sum of every episode in a row where one of the
+      episodes ends. Use the flag of each column for this column
+    error-left-out: your code sets the temporal-difference error to 0 in the last step
+      of an episode. This step has a reward as well, so keep the reward and the value
+    reward-at-the-end: your code uses the reward as the temporal-difference error of a
+      step that terminates. Subtract the value of the state before this step as well
+    weights-below-1: your code weights the n-step returns with (1 - lam) lam^k up to the
+      end of the episode. These weights do not sum to 1, so give the last of these
+      returns the weight that is left
+    reversed: your code returns the rows from the last step to the first. The first row
+      of the result should belong to the first step
+    normalised: your code normalises the advantages. Return them as they are, because
+      the sum of an advantage and its value is the target of the value function
+    value-one-early: your code subtracts the value of the previous row. Subtract the
+      value of the state before this step, which is in the same row
+    one-step-only: your code omits the errors of the later steps. Add gamma * lam times
+      the advantage of the next row
     targets-returned: your function returns the advantage plus the value, which is the
       target of the value function. Return the advantage alone
     """
@@ -101,7 +133,24 @@ def _(reward, value, next_value, terminated, ended, gamma, lam):
     def with_worth(some):
         return backwards(reward + gamma * some - value, on)
 
+    def with_error(some):
+        return backwards(some, on)
+
+    any_end = np.broadcast_to(ended.any(axis=1, keepdims=True), ended.shape)
+    # The last n-step return, and its weight lam^(n - 1).
+    full = backwards(delta, gamma * ~ended) + value
+    left = backwards(1.0 * ended, lam * ~ended)
     return {
+        "stopped-for-all": backwards(delta, gamma * lam * ~any_end),
+        "error-left-out": with_error(delta * ~ended),
+        "reward-at-the-end": with_error(np.where(terminated, reward, delta)),
+        "weights-below-1": right - lam * left * full,
+        "reversed": right[::-1],
+        "normalised": (right - right.mean()) / max(right.std(), 1e-8),
+        "value-one-early": with_error(
+            delta + value - np.vstack([value[:1], value[:-1]])
+        ),
+        "one-step-only": delta,
         "cut-off-is-terminated": with_worth(np.where(ended, 0, next_value)),
         "runs-through-ends": backwards(delta, always),
         "runs-through-cut-offs": backwards(delta, gamma * lam * ~terminated),
@@ -133,7 +182,7 @@ def _(reward, value, next_value, terminated, ended, gamma, lam):
 def _(reward, value, next_value, terminated, ended, gamma, lam):
     worth = next_value * (1 - terminated)
     out = np.zeros(reward.shape)
-    after = worth[-1]
+    after = np.zeros(reward.shape[1])
     for t in range(len(reward) - 1, -1, -1):
         after = np.where(ended[t], worth[t], (1 - lam) * worth[t] + lam * after)
         after = reward[t] + gamma * after

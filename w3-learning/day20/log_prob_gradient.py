@@ -9,7 +9,7 @@ from .actions import gaussians
 row = Row((
     Matrix((None, None), called="the gradient with respect to the mean"),
     Matrix((None, None), called="the gradient with respect to log_std"),
-))  # fmt: skip
+), near=1e-3)  # fmt: skip
 
 
 @row.inputs
@@ -35,17 +35,29 @@ def _(action, mean, log_std):
       gradient by std to obtain the gradient with respect to log_std
     determinant-forgotten: your gradient with respect to log_std is z^2. Subtract 1,
       because the log-probability contains the term -log_std, whose derivative is -1
+    of-the-density: your code returns the gradient of the density. Divide by the density
+      to obtain the gradient of the logarithm
+    of-the-density 2: your code multiplies both gradients by the density of the action.
+      Omit this factor, because the logarithm's gradient is the density's gradient
+      divided by the density
+    averaged: your code divides both gradients by the number of actions. Omit this
+      division, because each row is the gradient of its own action
     half: your gradient with respect to log_std contains z^2 / 2. Use z^2 instead,
       because the derivative of -z^2 / 2 with respect to log_std is z^2
     """
     std = np.exp(log_std)
     z = (action - mean) / std
     right = z / std, z**2 - 1
+    density = np.exp(-(z**2) / 2) / (std * np.sqrt(2 * np.pi))
+    whole = density.prod(axis=1, keepdims=True)
     return {
         "not-divided-again": (z, right[1]),
         "by-the-action": (-right[0], right[1]),
         "by-std": (right[0], right[1] / std),
         "determinant-forgotten": (right[0], z**2),
+        "of-the-density": (density * right[0], density * right[1]),
+        "of-the-density 2": (whole * right[0], whole * right[1]),
+        "averaged": (right[0] / len(action), right[1] / len(action)),
         "half": (right[0], z**2 / 2 - 1),
     }
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Row, Scalar
 
-from .carts import cart, moments, of_sizes, problem, problems
+from .carts import cart, moments, of_sizes, problem, problems, shared_noise
 
 row = Row(Scalar())
 
@@ -22,9 +22,13 @@ row.cases(
     one_step=lambda K, std, A, B, Q, R, S, T: T == 1,
     several_steps=lambda K, std, A, B, Q, R, S, T: T > 1,
 )
+row.cases(
+    a_single_input=lambda K, std, A, B, Q, R, S, T: len(K) == 1,
+    several_inputs=lambda K, std, A, B, Q, R, S, T: len(K) > 1,
+)
 
 
-@row.wrongs
+@row.wrongs(hidden={"noise-shared": "the cart has a single input"})
 def _(K, std, A, B, Q, R, S, T):
     """noise-not-propagated: your code omits the effect of the noise on the state. Add
       std^2 B B^T to E[x x^T] in each step
@@ -42,6 +46,15 @@ def _(K, std, A, B, Q, R, S, T):
       tr(R) in each of the T steps
     transposed: your code updates X = E[x x^T] to M^T X M, where M = A - B K. The mean
       of the next state is M x, so use M X M^T instead
+    noise-shared: your code moves the state as if all inputs had the same noise. The
+      entries of z are independent, so add std^2 B B^T to E[x x^T]
+    last-state-added: your code adds the cost x^T Q x of the state after the last step.
+      Add only the costs of the T states before the steps
+    traces-multiplied: your code multiplies the trace of Q + K^T R K by the trace of E[x
+      x^T]. Use the trace of the matrix product instead
+    P-one-late: your code computes the cost of the noise with the cost-to-go matrix of
+      the state before the step. Use the matrix of the state after the step, because the
+      noise of a step moves this state
     std-not-squared: your code uses std instead of the variance std^2. Use std^2 B B^T
       in E[x x^T] and std^2 tr(R) in the cost of each step
     """
@@ -59,7 +72,16 @@ def _(K, std, A, B, Q, R, S, T):
     turned = [S]
     for _ in range(T - 1):
         turned.append(M.T @ turned[-1] @ M + std**2 * B @ B.T)
+    late, to_go = 0.0, np.zeros(Q.shape)
+    for _ in range(T):
+        to_go = weight + M.T @ to_go @ M
+        late = late + own + std**2 * np.trace(B.T @ to_go @ B)
+    traces = [np.trace(weight) * np.trace(one) for one in X[:-1]]
     return {
+        "noise-shared": total(weight, shared_noise(K, std, A, B, S, T)),
+        "last-state-added": total(weight, X[:-1]) + np.trace(Q @ X[-1]),
+        "traces-multiplied": T * own + sum(traces),
+        "P-one-late": np.trace(to_go @ S) + late,
         "noise-not-propagated": total(weight, quiet[:-1]),
         "noise-costs-nothing": total(weight, X[:-1], 0),
         "control-free": total(Q, X[:-1]),

@@ -3,10 +3,11 @@
 import numpy as np
 
 from labkit.judge import Matrix, Row
+from robo47 import optimal
 
-from .carts import cart, moments, of_sizes, problem, problems
+from .carts import cart, moments, of_sizes, problem, problems, shared_noise
 
-row = Row(Matrix((None, None)))
+row = Row(Matrix((None, None)), near=1e-3)  # a difference quotient is near
 
 
 @row.inputs
@@ -22,18 +23,26 @@ row.cases(
     one_step=lambda K, std, A, B, Q, R, S, T: T == 1,
     several_steps=lambda K, std, A, B, Q, R, S, T: T > 1,
 )
+row.cases(
+    a_single_input=lambda K, std, A, B, Q, R, S, T: len(K) == 1,
+    several_inputs=lambda K, std, A, B, Q, R, S, T: len(K) > 1,
+)
 
 
-def costs_to_go(K, A, B, Q, R, T):
-    """Return P after each of T steps, and before the first: P_T = 0, ..., P_0."""
+def costs_to_go(K, A, B, Q, R, T, last=None, by=None):
+    """Return P from before the first step to after the last: P_0, ..., P_T = 0.
+
+    P_T may be another matrix `last`, and `by` may replace M^T in the recursion.
+    """
     M = A - B @ K
-    out = [np.zeros(Q.shape)]
+    left = M.T if by is None else by
+    out = [np.zeros(Q.shape) if last is None else last]
     for _ in range(T):
-        out.append(Q + K.T @ R @ K + M.T @ out[-1] @ M)
+        out.append(Q + K.T @ R @ K + left @ out[-1] @ left.T)
     return out[::-1]
 
 
-@row.wrongs
+@row.wrongs(hidden={"noise-shared": "the cart has a single input"})
 def _(K, std, A, B, Q, R, S, T):
     """P-one-late: your code uses the cost-to-go matrix P of the state before the step.
       Use the matrix of the state after the step, because the input of a step affects
@@ -49,6 +58,23 @@ def _(K, std, A, B, Q, R, S, T):
       in each step, as in `policy_cost`
     start-only: your code uses S in every step. S is E[x x^T] at the start only, so
       compute E[x x^T] before each step
+    noise-shared: your code moves the state as if all inputs had the same noise. The
+      entries of z are independent, so add std^2 B B^T to E[x x^T]
+    X-one-late: your code uses E[x x^T] after each step. Use the matrix before the step,
+      because the input of a step is -K x with the state before it
+    orders-mixed: your code pairs the first E[x x^T] with the last cost-to-go matrix. X
+      is computed from the first step to the last and P from the last to the first, so
+      store one of them
+    sign-of-B: your code adds B^T P M to R K. Subtract it, because M = A - B K contains
+      -B K
+    first-step-only: your code returns the contribution of the first step. The gain acts
+      in each of the T steps, so add the contributions of all steps
+    P-transposed: your code updates P with M P M^T, where M = A - B K. The cost of the
+      next state M x is x^T M^T P M x, so use M^T P M instead
+    cost-after-the-last-step: your cost-to-go matrix P is Q after the last step. Begin
+      with P = 0, because no cost follows the last step
+    optimal-P: your code computes P with the optimal gain of Riccati's recursion. Use P
+      = Q + K^T R K + M^T P M instead, which belongs to the given gain K
     return-sign: your gradient has the wrong sign. Return the gradient of the cost,
       which is minus the gradient of the return
     effort-forgotten: your cost-to-go matrix P omits K^T R K, the cost of the mean
@@ -63,10 +89,27 @@ def _(K, std, A, B, Q, R, S, T):
     def total(P, X):
         return sum(2 * (R @ K - B.T @ p @ M) @ x for p, x in zip(P, X, strict=True))
 
+    def with_optimal_P():
+        best = [np.zeros(Q.shape)]
+        for _ in range(T):
+            best.append(optimal.riccati_step(best[-1], A, B, Q, R)[0])
+        return total(best[-2::-1], X)
+
     right = total(P[1:], X)
+    X_after = moments(K, std, A, B, S, T)[1:]
+    ends = costs_to_go(K, A, B, Q, R, T, last=Q)
     none = [np.zeros(Q.shape)] * T
     return {
         "P-one-late": total(P[:-1], X),
+        "noise-shared": total(P[1:], shared_noise(K, std, A, B, S, T)),
+        "X-one-late": total(P[1:], X_after),
+        "orders-mixed": total(P[:0:-1], X),
+        "sign-of-B": sum(2 * (R @ K + B.T @ p @ M) @ x
+                         for p, x in zip(P[1:], X, strict=True)),
+        "first-step-only": total(P[1:2], X[:1]),
+        "P-transposed": total(costs_to_go(K, A, B, Q, R, T, by=M)[1:], X),
+        "cost-after-the-last-step": total(ends[1:], X),
+        "optimal-P": with_optimal_P,
         "two-forgotten": right / 2,
         "moments-forgotten": total(P[1:], [np.eye(len(S))] * T),
         "future-forgotten": total(none, X),
@@ -74,7 +117,7 @@ def _(K, std, A, B, Q, R, S, T):
         "start-only": total(P[1:], [S] * T),
         "return-sign": -right,
         "effort-forgotten": total(free[1:], X),
-    }
+    }  # fmt: skip
 
 
 def cost(K, std, A, B, Q, R, S, T):

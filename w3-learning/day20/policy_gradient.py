@@ -18,6 +18,10 @@ row.cases(
     episodes_of_one_step=lambda score, advantage: len(score) == 1,
     episodes_of_several_steps=lambda score, advantage: len(score) > 1,
 )
+row.cases(
+    a_single_episode=lambda score, advantage: advantage.shape[1] == 1,
+    several_episodes=lambda score, advantage: advantage.shape[1] > 1,
+)
 
 
 @row.wrongs
@@ -33,21 +37,47 @@ def _(score, advantage):
       Multiply each score by the advantage of its own step instead
     sign: your estimate has the wrong sign. A step in the direction of the estimate
       should increase the return, so negate the estimate
+    divided-by-steps: your code divides the sum by the number of steps. Divide the sum
+      by the number of episodes instead
+    means-multiplied: your code averages scores and advantages over the episodes before
+      it multiplies them. Multiply each score by its own advantage first, and then take
+      the mean
+    summed-to-go: your code adds the later advantages to the advantage of each step.
+      Use the advantages without this sum, because they already contain the later
+      rewards
+    pairs-mixed: your code pairs the scores with the advantages of other steps or
+      episodes. Both arrays have the steps on the first axis and the episodes on the
+      second axis
+    normalised-inside: your code normalises the advantages. Use the advantages without
+      this step, because the caller chooses the baseline and the scale
+    baseline-inside 2: your code subtracts the mean over the episodes from the
+      advantages of each step. Use the advantages without this subtraction, because the
+      caller chooses the baseline
     baseline-inside: your code subtracts the mean of the advantages. Use the advantages
       without this subtraction, because the caller chooses the baseline
     """
-    T, n, _ = score.shape
+    T, n, d = score.shape
     right = np.einsum("tnd,tn->d", score, advantage) / n
     sums = score.sum(axis=0) * advantage.sum(axis=0)[:, None]
+    centred = advantage - advantage.mean()
+
+    def summed(some):
+        return np.einsum("tnd,tn->d", score, some) / n
+
     return {
+        "divided-by-steps": right * n / T,
+        "means-multiplied": advantage.mean(axis=1) @ score.mean(axis=1),
+        "summed-to-go": summed(np.cumsum(advantage[::-1], axis=0)[::-1]),
+        "pairs-mixed": advantage.T.ravel() @ score.reshape(-1, d) / n,
+        "normalised-inside": summed(centred / max(advantage.std(), 1e-8)),
         "mean-over-steps": right / T,
         "summed-over-episodes": right * n,
         "sums-multiplied": sums.mean(axis=0),
         "first-advantage": (score.sum(axis=0) * advantage[0][:, None]).mean(axis=0),
         "sign": -right,
-        "baseline-inside": np.einsum(
-            "tnd,tn->d", score, advantage - advantage.mean()) / n,
-    }  # fmt: skip
+        "baseline-inside 2": summed(advantage - advantage.mean(axis=1, keepdims=True)),
+        "baseline-inside": summed(centred),
+    }
 
 
 @row.right  # Episode by episode.

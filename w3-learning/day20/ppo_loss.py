@@ -17,6 +17,16 @@ def far(rng):
         yield logp, old, advantage, 0.2
 
 
+def large(rng):
+    """Yield ratios from 20 to 160 000, with a negative advantage."""
+    for more in (3.0, 6.0, 12.0):
+        logp, old = logps(rng, 3)
+        logp[0] = old[0] + more
+        advantage = rng.numbers(0.2, 1, 3)
+        advantage[0] = -advantage[0]
+        yield logp, old, advantage, 0.2
+
+
 row = Row(
     (Scalar(called="the loss"), Vector((None,), called="the gradient")),
     # On the edge of the range both sides are right.
@@ -24,6 +34,15 @@ row = Row(
         np.all(np.abs(np.abs(np.exp(logp - old_logp) - 1) - clip) > 1e-6)
     ),
     held_out=[
+        HeldOut(
+            "limited-too-early",
+            "Your function is right for moderate ratios. A large ratio with a negative "
+            "advantage is not clipped, so its term grows with the ratio. Your result "
+            "does not grow in this way. If you limit logp - old_logp, do so only where "
+            "exp would overflow, for example at 600.",
+            large,
+            relative=True,
+        ),
         HeldOut(
             "overflows",
             "Your function is right for moderate ratios. For a very large ratio, exp "
@@ -48,6 +67,8 @@ def _(rng):
         yield *logps(rng, n), rng.numbers(-2, 2, n), float(rng.numbers(0.1, 0.4))
     inside = rng.numbers(-0.1, 0.1, 4)
     yield old[:4] + inside, old[:4], rng.numbers(-2, 2, 4), 0.3
+    for sign in (1, -1):
+        yield *logps(rng, 4), sign * rng.numbers(0.3, 2, 4), 0.2
 
 
 def ratios(logp, old_logp):
@@ -64,6 +85,16 @@ row.cases(
         (np.abs(ratios(logp, old_logp) - 1) >= clip).any()
     ),
 )
+row.cases(
+    positive_advantages=lambda logp, old_logp, advantage, clip: (advantage > 0).all(),
+    negative_advantages=lambda logp, old_logp, advantage, clip: (advantage < 0).all(),
+)
+
+
+@row.rare
+def _(rng):
+    for sign in (1, -1):
+        yield *logps(rng, 3), sign * rng.numbers(0.3, 2, 3), 0.2
 
 
 @row.wrongs
@@ -92,6 +123,23 @@ def _(logp, old_logp, advantage, clip):
       density
     clip-above-only: your code clips the ratio at 1 + clip only. Clip the ratio at 1 -
       clip as well, because a negative advantage makes the ratio smaller
+    minimum-of-ratios: your code takes the minimum before it multiplies by the
+      advantage. Multiply both ratios by the advantage first, because a negative
+      advantage reverses their order
+    minimum-of-ratios 2: your loss takes the minimum before it multiplies by the
+      advantage. Multiply both ratios by the advantage first, because a negative
+      advantage reverses their order
+    minimum-for-a-negative-advantage: your code limits the ratio to at most 1 - clip
+      where the advantage is negative. Use the maximum of the ratio and 1 - clip there,
+      because a negative factor reverses the order of both terms
+    product-clipped: your code limits the product of ratio and advantage to the range
+      from 1 - clip to 1 + clip. Limit the ratio first, and then multiply by the
+      advantage
+    logs-clipped: your code limits logp - old_logp to the range from -clip to clip.
+      Limit the ratio exp(logp - old_logp) to the range from 1 - clip to 1 + clip
+      instead
+    lower-end-inverted: your code uses 1 / (1 + clip) as the lower end of the range. Use
+      1 - clip instead
     sign: your loss and gradient have the wrong sign. A loss is minimised, so negate
       both the loss and the gradient
     summed: your loss is the sum over the actions. Divide the loss and the gradient by
@@ -110,6 +158,9 @@ def _(logp, old_logp, advantage, clip):
     inside = np.abs(r - 1) <= clip
     of_cut = np.mean(np.clip(r, 1 - clip, 1 + clip) * advantage)
     linear = 1 + logp - old_logp
+    at_most = np.minimum(r, np.where(advantage >= 0, 1 + clip, 1 - clip))
+    low, high = np.exp(-clip), np.exp(clip)
+    least = np.minimum(r, 1 + clip)
     kept = right[1] != 0
     return {
         "no-clip": (-np.mean(free), -free / n),
@@ -124,6 +175,24 @@ def _(logp, old_logp, advantage, clip):
         "ratio-of-logs": both(linear),
         "ratio-inverted": both(1 / r),
         "clip-above-only": both(r, low=-np.inf),
+        "minimum-of-ratios": (
+            -np.mean(least * advantage),
+            np.where(r <= 1 + clip, -free / n, 0),
+        ),
+        "minimum-of-ratios 2": (
+            -np.mean(np.minimum(r, np.clip(r, 1 - clip, 1 + clip)) * advantage),
+            right[1],
+        ),
+        "minimum-for-a-negative-advantage": (
+            -np.mean(at_most * advantage),
+            np.where(at_most == r, -free / n, 0),
+        ),
+        "product-clipped": (
+            -np.mean(np.minimum(free, np.clip(free, 1 - clip, 1 + clip))),
+            np.where(free <= 1 + clip, -free / n, 0),
+        ),
+        "logs-clipped": both(r, low, high),
+        "lower-end-inverted": both(r, 1 / (1 + clip)),
         "sign": (-right[0], -right[1]),
         "summed": (n * right[0], n * right[1]),
     }

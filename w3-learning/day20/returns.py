@@ -2,9 +2,26 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, Row
+from labkit.judge import HeldOut, Matrix, Row
 
-row = Row(Matrix((None, None)))
+
+def none_later(rng):
+    """Yield rewards with a discount factor of 0."""
+    for T in (2, 4):
+        yield rng.numbers(-1, 2, T, 2), 0.0, rng.numbers(-2, 2, 2)
+
+
+row = Row(
+    Matrix((None, None)),
+    held_out=[
+        HeldOut(
+            "gamma-of-0",
+            "Your function is right for gamma above 0. For a gamma of 0, the return "
+            "of a step is its own reward. Does your code divide by a power of gamma?",
+            none_later,
+        ),
+    ],
+)
 
 
 @row.inputs
@@ -14,7 +31,7 @@ def _(rng):
         (1, 2, 0.8),
         (3, 1, 1.0),
         (4, 3, 0.9),
-        (2, 2, 0.0),
+        (2, 2, 0.3),
         (5, 2, 0.6),
     ):
         yield rng.numbers(-1, 2, T, n), gamma, rng.numbers(-2, 2, n)
@@ -44,6 +61,16 @@ def _(reward, gamma, last):
     """from-the-start: your code sums the rewards from the first step up to each step.
       The return of a step should contain the reward of this step and the later rewards
       instead
+    from-the-start 2: your code runs from the first step to the last. The return of a
+      step contains the return of the next step, so begin at the last step
+    from-the-start 3: your code sums the reward of each step and the earlier rewards.
+      The return of a step should contain the later rewards instead
+    first-step-left-out: your loop ends before row 0, the first step. The loop should
+      compute the return of row 0 as well
+    first-step-left-out 2: your loop ends before row 0, the first step, whose result
+      stays 0. The loop should compute the return of row 0 as well
+    last-by-the-horizon: your code multiplies `last` by gamma^T in the return of each
+      step. In the return of step t, multiply `last` by gamma^(T - t) instead
     last-forgotten: your code omits `last`, the value of the state after the last step.
       Add `last` with the factor gamma^(T - t) to the return of step t
     last-not-discounted: your code adds `last` to the last reward without the factor
@@ -68,6 +95,11 @@ def _(reward, gamma, last):
     right = powers(reward, gamma, last)
     return {
         "from-the-start": flipped,
+        "from-the-start 2": powers(reward[::-1], gamma, last)[::-1],
+        "from-the-start 3": flipped + right - powers(reward, gamma, 0 * last),
+        "first-step-left-out": np.vstack([reward[:1], right[1:]]),
+        "first-step-left-out 2": np.vstack([0 * reward[:1], right[1:]]),
+        "last-by-the-horizon": powers(reward, gamma, 0 * last) + gamma**T * last,
         "last-forgotten": powers(reward, gamma, 0 * last),
         "last-not-discounted": powers(reward + tail, gamma, 0 * last),
         "discount-by-time": by_time,

@@ -33,15 +33,19 @@ def _(reward, potential, gamma):
     potential-only: your code adds only the potential after the step. Subtract the
       potential before the step as well, so that intermediate potentials cancel in the
       discounted return
+    discounted-twice: your code multiplies the added reward by gamma^t. Omit this
+      factor, because the return discounts each reward already
     gamma-on-both: your code multiplies both potentials by gamma. Multiply only the
       potential after the step by gamma, because only this potential is one step later
     """
     before, after = potential[:-1], potential[1:]
+    powers = gamma ** np.arange(len(reward))[:, None]
     return {
         "gamma-forgotten": reward + after - before,
         "sign": reward - gamma * after + before,
         "gamma-on-the-wrong-one": reward + after - gamma * before,
         "potential-only": reward + gamma * after,
+        "discounted-twice": reward + powers * (gamma * after - before),
         "gamma-on-both": reward + gamma * (after - before),
     }
 
