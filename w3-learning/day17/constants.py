@@ -44,7 +44,7 @@ def linear(levels=LAB.LEVELS, last=0.02, sigma=LAB.SIGMA, samples=LAB.SAMPLES //
     "width / sigma of one mode after DDIM steps", "{:.3f}",
     steps=between(1.2, 1.3, "each angle is about half as large"),
     sigma=between(1.05, 1.2, "the angles of the steps are more equal"),
-    levels=between(0.9, 0.96, "level 0 has less noise, so the step to it is longer"),
+    levels=between(0.9, 0.96, "level 0 has less noise, so the angle to it is larger"),
 )  # fmt: skip
 def ddim(steps=10, sigma=LAB.SIGMA, levels=LAB.LEVELS):
     """Return the product of the cosines."""

@@ -285,14 +285,14 @@ def test_the_linear_schedule_halves_the_loss_and_brings_no_puck_home():
 @pytest.mark.kit
 @pytest.mark.parametrize(
     ("method", "plan", "loss", "came"),
-    [("diffusion", False, 0.14, 3), ("flow", True, 0.03, 175),
+    [("diffusion", False, 0.14, 5), ("flow", True, 0.03, 175),
      ("flow", False, 0.30, 80)],
 )  # fmt: skip
 def test_the_target_decides(method, plan, loss, came):
     planner, found = trained(method, plan)
     assert found == pytest.approx(loss, rel=0.12)
     with changed(METHOD=method, PREDICTS_PLAN=plan):
-        assert home(planner) == pytest.approx(came, abs=10 if came > 3 else 3)
+        assert home(planner) == pytest.approx(came, abs=10 if came > 5 else 3)
     assert re.search(rf"{method} \| the \w+ \| {loss:.2f} \| .*{came},", SENTENCES)
 
 

@@ -26,7 +26,12 @@ row.cases(
 row.at_least_0(abars="fractions", sigma="a standard deviation", answer="a fraction")
 
 
-@row.wrongs(hidden={"pure-noise-first": "the lab's first level is nearly pure noise"})
+@row.wrongs(
+    hidden={
+        "pure-noise-first": "the lab's first level is nearly pure noise",
+        "start-1": "the lab's first level is nearly pure noise",
+    }
+)
 def _(abars, sigma):
     """width-forgotten: your code uses the vectors (sqrt(abar), sqrt(1 - abar)).
       Multiply the first component by sigma, so that it is the standard deviation of the
@@ -52,6 +57,9 @@ def _(abars, sigma):
       the cosine of its angle, so return the product of the cosines
     width: your function returns the standard deviation after all steps. Divide it by
       sigma to obtain the fraction that the steps keep
+    start-1: your code starts from the standard deviation 1. Start from the standard
+      deviation of the noisy data at the first level, which is the norm of the first
+      vector
     lengths-kept: your code divides each scalar product by the square of the first
       vector's norm. Divide it by the product of the norms of both vectors instead,
       which gives the cosine
@@ -81,6 +89,7 @@ def _(abars, sigma):
         "sines": np.prod(np.sqrt(np.maximum(1 - right**2, 0))),
         "pure-noise-first": np.prod(right) * np.sqrt(1 - abars[0]) / sizes[0],
         "mean": np.mean(right),
+        "start-1": np.prod(right) / sizes[0],
         "lengths-kept": np.prod(right) * sizes[-1] / sizes[0],
         "sum": np.sum(right),
         "width": sigma * np.prod(right),

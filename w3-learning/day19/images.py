@@ -51,8 +51,8 @@ def maps(rng):
 def large_maps(rng):
     """Yield maps whose entries exceed what exp can represent.
 
-    All entries of a map are large, with either sign, or those of one map only, or one
-    entry of a map.
+    All entries of all maps are large, with either sign; or all entries of one map; or
+    one entry of a map.
     """
     for some, *others in list(maps(rng))[:3]:
         yield some + 3000.0, *others

@@ -71,8 +71,8 @@ def _(maps, xs, ys, temperature):
       everywhere
     x-y-swapped: your result is (y, x). Return x first, where pixel [i, j] is at x =
       xs[j] and y = ys[i]
-    over-the-maps: the weights of each pixel sum to 1 over the maps. The weights of each
-      map should sum to 1, so divide by the sum over the rows and columns
+    over-the-maps: your weights of each pixel sum to 1 over the maps. The weights of
+      each map should sum to 1, so divide by the sum over the rows and columns
     indices: your code averages the indices of rows and columns. Average the
       coordinates xs and ys instead
     softmax-of-sums: your code sums the map along one axis before exp. Apply exp to each
