@@ -58,8 +58,8 @@ def _(abars, sigma):
     width: your function returns the standard deviation after all steps. Divide it by
       sigma to obtain the fraction that the steps keep
     start-1: your code starts from the standard deviation 1. Start from the standard
-      deviation of the noisy data at the first level, which is the norm of the first
-      vector
+      deviation of the noisy data at the first level instead, which is the norm of the
+      first vector
     lengths-kept: your code divides each scalar product by the square of the first
       vector's norm. Divide it by the product of the norms of both vectors instead,
       which gives the cosine
