@@ -5,9 +5,11 @@ import ast
 import numpy as np
 import pytest
 from test_claims import right, told
+from test_own_line import told as told_of_a_file
 
 from labkit.judge import sources
 from labkit.judge.ask import Case, asked_of, right_answers, stacked
+from labkit.judge.form import is_of_its_form
 from labkit.judge.matcher import Matcher
 from labkit.judge.mutant import KINDS, Body, body_of
 from labkit.judge.row import row_of
@@ -32,15 +34,65 @@ def test_a_component_that_a_sum_omits_is_not_said_to_be_in_a_wrong_place():
     assert "wrong order" not in says
 
 
-def test_the_comment_of_a_right_solution_says_which_step_is_wrong():
-    def body_jacobian(J_space, T):
-        omega, v = J_space[:3], J_space[3:]
-        at_hand = v - np.cross(T[:3, 3], omega, axis=0)
-        return np.vstack([T[:3, :3] @ omega, T[:3, :3].T @ at_hand])
+def test_the_comment_of_a_right_solution_says_which_step_is_wrong(student):
+    body = """
+def body_jacobian(J_space, T):
+    omega, v = J_space[:3], J_space[3:]
+    at_hand = v - np.cross(T[:3, 3], omega, axis=0)
+    return np.vstack([T[:3, :3] @ omega, T[:3, :3].T @ at_hand])
+"""
+    says = told_of_a_file(3, "3.9", "body_jacobian", student, body)
+    assert "omega, expressed in the hand frame" in says
 
-    assert "omega, expressed in the hand frame" in told(
-        3, "3.9", body_jacobian=body_jacobian
+
+GRADIENT = """
+def masked_l1(pred, target, mask):
+    e = pred - target
+    k = mask.sum()
+    loss = np.sum(np.abs(e).mean(axis=2) * mask) / k
+    return loss, np.sign(e) * mask[..., None] / k
+"""
+
+
+def test_a_term_that_only_another_right_solution_has_is_not_called_missing(student):
+    """A mutant of a right solution by einsum gives these numbers, without a division.
+
+    The student's function has as many divisions.
+    """
+    says = told_of_a_file(16, "16.2", "masked_l1", student, GRADIENT)
+    assert says.startswith("The loss is right. The gradient is wrong in")
+    assert "missing" not in says
+
+
+def changed_line(mutant):
+    """Return the line that a mutant changes, as it reads then."""
+    with mutant.made():
+        line = mutant.statement()
+        return ast.unparse(line) if line else ""
+
+
+FORM = "def f(x, y):\n    s = x * y\n    return s / (x - y)\n"
+
+
+@pytest.mark.parametrize(
+    ("own", "has"),
+    [
+        ("return x * y", True),  # one operation less, and one subtraction
+        ("return x * y / (x - y)", True),  # the same form
+        ("s = 0\n    for k in range(3):\n        s += x / y\n    return s", False),
+        ("while x < y:\n        x = np.sqrt(x) / y\n    return x", False),
+    ],
+)
+def test_what_is_missing_is_missing_in_the_students_form(own, has):
+    right = Body(ast.parse(FORM).body[0], {})
+    divided = next(one for one in right.near if changed_line(one) == "return s")
+    other = ast.parse(
+        "def f(x, y):\n    while x: x = np.sqrt(x)\n    for k in x: k / 1"
     )
+    mine = ast.parse(f"def f(x, y):\n    {own}\n").body[0]
+    others = [right.function, other.body[0]]
+    assert is_of_its_form(mine, divided, others) == has
+    assert is_of_its_form(mine, divided, [right.function])  # nothing is more like it
 
 
 def test_only_a_right_solutions_comments_are_glosses():
@@ -63,7 +115,9 @@ def test_a_kind_that_needs_a_place_is_not_told_without_one(kind, monkeypatch):
     monkeypatch.setattr(sources, "shows", lambda m, mutant: False)
     monkeypatch.setattr(sources, "of_mutants", lambda m, found: found[0].kind)
     assert SAYS.get(kind) or kind == "line"
-    assert sources.other_mutants(None) == (kind if kind in TELLING else None)
+    # "A part of the formula is missing" says too little without a noun.
+    says = kind in TELLING and kind != "left-out"
+    assert sources.other_mutants(None) == (kind if says else None)
 
 
 def test_a_function_that_only_counts_the_pairs_of_a_path_is_named():

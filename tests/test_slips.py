@@ -116,6 +116,23 @@ def test_a_search_ends_after_a_count_of_lines_that_no_clock_changes(monkeypatch)
     assert -limits.ONCE < effort.left + one.steps.lines // 2 <= one.steps.lines // 2
 
 
+def test_the_lines_of_the_functions_that_are_called_are_counted():
+    lines = "".join(f"    x = x + {k}\n" for k in range(60))
+    space = {}
+    exec(f"def long(x):\n{lines}    return x\n", space)
+    exec("def short(x):\n    return x\n", space)
+    exec("def both(x):\n    return long(x) + short(x)\n", space)
+    exec("def again(x):\n    return again(x - 1) if x else 0\n", space)
+    called = {
+        name: limits.work(ast.parse(f"def f(x):\n    return {name}(x)").body[0], space)
+        for name in ("long", "short", "both", "again")
+    }
+    assert called["short"] == limits.CALL + 2
+    assert called["long"] > 60
+    assert called["both"] > called["long"] + called["short"] - 4
+    assert called["again"] < 6 * limits.CALL
+
+
 def test_an_outer_product_in_a_loop_does_not_fill_the_memory():
     text = "for _ in range(9):\n        x = np.outer(x, x)"
     one = body(f"def f(x):\n    {text}\n    return x\n")

@@ -25,7 +25,7 @@ def by_results(m: Matcher) -> Finding | None:
     What is with the other results is said besides: a mistake of one may be about all.
     """
     wrong = _wrong_results(m)
-    if len(m.S) < 2 or m.whole or not wrong:
+    if len(wrong) < 2 or m.whole:
         return None
     told: dict[int, Mistake] = {}
     for one in of_its_own_first(m):
@@ -50,8 +50,23 @@ def _given_by(m: Matcher, one: Mistake, left: list[int]) -> list[int]:
     some = [j for j in left if fits(m.furthest, _put(mine, answer, j))]
     for calls in filter(None, (m.main, m.fresh)) if some else ():
         every = calls.answers(one.redo)
-        some = [j for j in some if every and _gives(calls, every, j)]
+        if not every or _spoils(calls, every):
+            return []
+        some = [j for j in some if _gives(calls, every, j)]
     return some
+
+
+def _spoils(calls: Calls, every: Parts) -> bool:
+    """Return whether a mistake makes a result wrong that the student has right.
+
+    Its sentence is about that result as well, and so it would be false.
+    """
+    ask, S, T = calls.ask, calls.S, calls.T
+    return any(
+        (ask.gaps_of(j, S[j], T[j]) <= ask.near).all()
+        and (ask.gaps_of(j, every[j], T[j]) > ask.near).any()
+        for j in range(len(S))
+    )
 
 
 def _gives(calls: Calls, every: Parts, j: int) -> bool:

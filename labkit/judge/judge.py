@@ -7,6 +7,7 @@ from itertools import compress
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from labkit.base.exchange import Exchange
 from labkit.base.text import count
@@ -232,7 +233,7 @@ def _both(
     return Finding(named.slug if named else found.slug, says)
 
 
-def _in_the_others(wrong: Array) -> str:
+def _in_the_others(wrong: NDArray[np.bool_]) -> str:
     """Return how many results are wrong in the calls that have one."""
     if len(wrong) == 1:
         return "In the other call, the result is wrong."

@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import partial, wraps
+from functools import cache, partial, wraps
 from types import FunctionType, ModuleType
 from typing import Any
 
@@ -34,7 +34,8 @@ GUARDED = ("lstsq", "svd", "eigh", "eigvalsh", "eig", "eigvals", "pinv", "matrix
 
 
 LINES = 2_500_000  # that a search may execute; a third of a second, or so
-CALL = 20  # lines of a Python function that a body calls
+CALL = 20  # lines of a Python function that a body calls, at least
+DEEP = 3  # functions that call each other, whose lines are counted
 ONCE = 400  # lines that it takes to compile a mutant and to compare its answer
 LATE = 2.0  # seconds of the processor, whatever the lines take
 
@@ -175,8 +176,8 @@ def work(function: ast.FunctionDef, space: Mapping[str, Any]) -> int:
 
     Args:
         function: the syntax tree.
-        space: the names of its module; a call of a Python function among them counts as
-            several lines.
+        space: the names of its module; the lines of a Python function among them that
+            it calls are counted, too.
     """
     nodes = list(ast.walk(function))
     called = [
@@ -184,8 +185,18 @@ def work(function: ast.FunctionDef, space: Mapping[str, Any]) -> int:
         for node in nodes
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
     ]
-    own = sum(isinstance(one, FunctionType) for one in called)
-    return sum(isinstance(node, ast.stmt) for node in nodes) + CALL * own
+    own = [one for one in called if isinstance(one, FunctionType)]
+    return sum(isinstance(node, ast.stmt) for node in nodes) + sum(map(_inside, own))
+
+
+@cache
+def _inside(function: FunctionType, deep: int = DEEP) -> int:
+    """Return about how many lines a call of a function executes, `CALL` at least."""
+    names = {*function.__code__.co_names}
+    inner = [function.__globals__.get(name) for name in names] if deep else []
+    more = (_inside(one, deep - 1) for one in inner if isinstance(one, FunctionType))
+    lines = len({line for *_, line in function.__code__.co_lines()})
+    return max(CALL, lines + sum(more))
 
 
 def loops(trees: Iterable[ast.AST]) -> list[Any]:

@@ -14,6 +14,7 @@ from labkit.judge.kinds import NEAR, RIGHT, Kind, few_entries, one_factor
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
+SWAPPED = "rows and columns are swapped"
 MOST_BLOCKS = 4  # of columns, up to which their other orders are tried
 
 
@@ -58,7 +59,7 @@ class Matrix(Kind):
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         if got == self.shape[::-1] != self.shape:
-            return "rows and columns are swapped"
+            return SWAPPED
         return super().why_shape(got)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102

@@ -16,6 +16,7 @@ from labkit.judge import results
 from labkit.judge.answers import InTurn, Parts, capitalised, listed, matches, parts
 from labkit.judge.ask import Ask, Asked, stacked
 from labkit.judge.hypothesis import evidence
+from labkit.judge.matrix_kinds import SWAPPED
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
@@ -90,7 +91,8 @@ def in_another_order(asked: Asked, found: Finding) -> Finding:
         telling += any(len(set(its[j].ravel().tolist())) > 1 for j in off)
         for j in off:
             moved[j] = moved.get(j, how[j]) & how[j]
-    if telling < AGREE:
+    known = SWAPPED in found.message  # that they are transposed
+    if telling < AGREE or known:
         return found
     return Finding(found.slug, f"{found.message} {_in_words(asked.ask, moved)}")
 

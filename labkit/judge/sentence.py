@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from labkit.judge.answers import capitalised
+from labkit.judge.form import is_of_its_form
 from labkit.judge.hypothesis import evidence
 from labkit.judge.mistake import REDONE, Finding
 from labkit.judge.mutant import Mutant
@@ -91,7 +92,8 @@ def _of_the_formula(m: Any, mutant: Mutant) -> str:
     that of the changed formula.
     """
     says = told(m, mutant)
-    if tells(mutant) or own_line(m, mutant) or known_text(m, mutant):
+    known = own_line(m, mutant) or known_text(m, mutant)
+    if mutant.kind in TELLING or known:
         return says
     return f"your code gives the result of the correct formula with one change: {says}"
 
@@ -128,9 +130,25 @@ def has_its_kind(m: Any, mutant: Mutant) -> bool:
     )
 
 
+def is_in_its_form(m: Any, mutant: Mutant) -> bool:
+    """Return whether a mutant's sentence is about something in the student's function.
+
+    The lab's form is the one that the guide teaches; another right function may have
+    steps that the student's has not.
+    """
+    if mutant.body.own or own_line(m, mutant):
+        return True
+    own = _own_function(m, mutant)
+    others = [body.function for body in m.bodies]
+    return own is None or is_of_its_form(own.own, mutant, others)
+
+
 def tells(mutant: Mutant) -> bool:
-    """Return whether a mutant's kind says enough without a place."""
-    return mutant.kind in TELLING
+    """Return whether a mutant's kind says enough without a place.
+
+    "A division is missing" does, and "a part of the formula is missing" does not.
+    """
+    return mutant.kind in TELLING and what(mutant) != SAYS["left-out"]
 
 
 def half(m: Any, mutant: Mutant) -> str:

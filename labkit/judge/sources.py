@@ -30,7 +30,14 @@ from labkit.judge.kinds import one_factor
 from labkit.judge.matcher import Calls, Code, Matcher
 from labkit.judge.mistake import REDONE, Finding, Mistake
 from labkit.judge.mutant import FAR, Mutant
-from labkit.judge.sentence import has_its_kind, of_mutants, own_line, shows, tells
+from labkit.judge.sentence import (
+    has_its_kind,
+    is_in_its_form,
+    of_mutants,
+    own_line,
+    shows,
+    tells,
+)
 
 NEAR, FURTHER = "near", "further"  # mutants
 # What share of a search's effort is kept for the sources that come later.
@@ -277,7 +284,8 @@ def _that_hold(m: Matcher, which: str) -> list[Mutant]:
         told = m.whole or shows(m, one) or tells(one)
         apart = not any(one.overlaps(other) for other in found)
         code = one.code
-        if code and told and apart and has_its_kind(m, one) and m.holds(code):
+        may_be = has_its_kind(m, one) and is_in_its_form(m, one)
+        if code and told and apart and may_be and m.holds(code):
             found.append(one)
             if len(found) >= APART:
                 break

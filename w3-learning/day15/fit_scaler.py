@@ -17,6 +17,7 @@ def _(rng):
     x = rng.numbers(-1, 1, 5, 3)
     x[:, 1] = 2.0
     yield (x,)
+    yield (np.array([[0.1, 1], [0.1, 2], [0.1, 6]]),)  # NumPy's std is not exactly 0
 
 
 row.cases(
@@ -43,6 +44,9 @@ def _(x):
       and the standard deviation instead
     constant-0: your code returns a standard deviation of 0 for a constant column, so
       `normalise` would divide by 0. Return 1 for such a column
+    rounded-to-0: your code compares the standard deviation with 0, but rounding can
+      make it about 1e-17 for a constant column. Compare the entries of the column with
+      each other instead
     about-0 2: your second row contains the root mean square of each column. Subtract
       the mean of the column first, so that the result is the standard deviation
     one-for-all 2: your code uses one mean and one standard deviation for all columns.
@@ -52,13 +56,14 @@ def _(x):
     """
     mean = x.mean(axis=0)
     std = x.std(axis=0)
-    one = np.where(std == 0, 1, std)
+    constant = (x == x[0]).all(axis=0)
+    one = np.where(constant, 1, std)
 
     def safe(s):
-        return np.where(s == 0, 1, s)
+        return np.where(s < 1e-12, 1, s)
 
     def kept(s):  # with 1 for a constant column all the same
-        return np.where(std == 0, 1, s)
+        return np.where(constant, 1, s)
 
     several = len(x) > 1
     return {
@@ -77,7 +82,8 @@ def _(x):
         "spread-for-all 2": np.array([mean, kept(x.std())]),
         "variance": np.array([mean, safe(std**2)]),
         "deviation": np.array([mean, safe(np.mean(np.abs(x - mean), axis=0))]),
-        "constant-0": np.array([mean, std]),
+        "constant-0": np.array([mean, np.where(constant, 0, std)]),
+        "rounded-to-0": np.array([mean, np.where(std == 0, 1, std)]),
     }
 
 
@@ -97,7 +103,7 @@ def _(x):
 def _(x):
     means = np.mean(x, 0)
     spread = np.sqrt(np.mean((x - means) ** 2, 0))
-    spread[spread == 0] = 1
+    spread[spread < 1e-12] = 1
     return np.stack([means, spread])
 
 

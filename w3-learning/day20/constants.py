@@ -68,7 +68,7 @@ def exact_value(episodes=LAB.EACH, horizon=LAB.HORIZON, std=LAB.STD, seed=LAB.SE
 @numbers.add(
     "mean estimate with half the value, lambda 0.5, first entry", "{:.2f}",
     episodes=between(0.9, 1.1, "more data do not reduce the bias"),
-    seed=between(0.9, 1.1, "the bias is not luck"),
+    seed=between(0.9, 1.1, "the bias is not due to chance"),
 )  # fmt: skip
 def biased(episodes=LAB.EACH, seed=LAB.SEED):
     """Return the first entry of the mean estimate."""

@@ -2,11 +2,32 @@
 
 import numpy as np
 
-from labkit.judge import Row, Vector
+from labkit.judge import HeldOut, Row, Vector
 
 from .actions import gaussians
 
-row = Row(Vector((None,)))
+
+def far(rng):
+    """Yield actions so far from the mean that exp gives 0 for their density."""
+    for n, m in ((2, 1), (3, 2)):
+        action, mean = rng.numbers(-1, 1, 2, n, m)
+        action[0] += 120.0
+        yield action, mean, rng.numbers(-1, 0.5, m)
+
+
+row = Row(
+    Vector((None,)),
+    held_out=[
+        HeldOut(
+            "underflow",
+            "Your function is right for an action near its mean, but not far from it. "
+            "The density of a far action is so small that exp gives 0, and the log of "
+            "0 is minus infinity. Take the logarithm of the formula on paper first, so "
+            "that your code does not need this exp.",
+            far,
+        ),
+    ],
+)
 
 
 @row.inputs
@@ -67,11 +88,10 @@ def _(action, mean, log_std):
     }
 
 
-@row.right  # By the density of each entry.
+@row.right  # With the variance of each entry.
 def _(action, mean, log_std):
     var = np.exp(log_std) ** 2
-    p = np.exp(-((action - mean) ** 2) / (2 * var)) / np.sqrt(2 * np.pi * var)
-    return np.log(p).sum(axis=1)
+    return -((action - mean) ** 2 / var + np.log(2 * np.pi * var)).sum(axis=1) / 2
 
 
 @row.right  # With a covariance matrix, row by row.

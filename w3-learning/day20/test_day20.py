@@ -9,6 +9,9 @@ import numpy as np
 import pytest
 
 from conftest import ROOT, load_script, printed_by, sentences
+from labkit.check.tasks import check_tasks
+from labkit.lesson.day import find_day
+from labkit.sandbox.sandbox import Sandbox
 from robo47 import optimal, reward
 
 import day15_mujoco
@@ -60,7 +63,7 @@ def test_the_opening_is_what_the_lab_prints(printed):
         assert re.search(rf"\b{digits} if", SENTENCES)
         assert re.search(rf" {value:.2f}$", printed, re.M)
     length = np.linalg.norm(lab.policy_cost_gradient(lab.GAIN, *rest()))
-    assert f"The exact gradient has the norm {length:.1f}" in SENTENCES
+    assert f"The norm of the exact gradient is {length:.1f}" in SENTENCES
     assert f"about {round((std[0] / std[2]) ** 2, -2):.0f} times as many" in SENTENCES
 
 
@@ -89,7 +92,7 @@ def test_the_cases_on_paper_are_what_the_functions_return():
     assert lab.policy_cost_gradient(one / 2, 1.0, *some, 2)[0, 0] == 1
     assert lab.policy_cost_gradient(one / 2, 0.0, *some, 2)[0, 0] == 0
     assert "With $\\sigma = 1$ it is 1" in SENTENCES
-    # K = 0.5 is the optimal gain there.
+    # K = 0.5 is the optimal gain.
     _, K = optimal.riccati_step(one, one, one, one, one)
     assert K[0, 0] == 0.5
 
@@ -175,6 +178,20 @@ def test_data_without_a_clip_are_soon_worth_less():
 
 
 # What only an author can break.
+
+
+@pytest.mark.kit
+def test_the_log_of_a_density_that_exp_cannot_represent_does_not_pass(student):
+    day = find_day(20)
+    code = (ROOT / "w3-learning/src/day20_reward.py").read_text("utf-8")
+    density = code.replace("each = -(z**2) / 2", "each = np.log(np.exp(-(z**2) / 2))")
+    assert density != code
+    path = student(density, day.script)
+    with Sandbox() as sandbox:
+        results = check_tasks(day, path, sandbox, "20.1", seed=1)
+    (verdict,) = [one.verdict for one in results if one.task.id == "20.1"]
+    assert verdict.mistake == "underflow"
+    assert "not far from it" in verdict.message
 
 
 @cache

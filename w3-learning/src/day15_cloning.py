@@ -68,10 +68,8 @@ def fit_scaler(x: np.ndarray) -> np.ndarray:
     fit_scaler([[1, 4], [3, 4]]) -> [[2, 4], [1, 1]]
     """
     # region 15.3
-    spread = x.std(axis=0)  # standard deviation of each column
-    spread = np.where(
-        spread == 0, 1, spread
-    )  # standard deviation, 1 for a constant column
+    constant = (x == x[0]).all(axis=0)  # columns whose entries are all equal
+    spread = np.where(constant, 1, x.std(axis=0))  # standard deviations, or 1
     return np.array([x.mean(axis=0), spread])  # the means above the deviations
     # endregion 15.3
 

@@ -54,7 +54,8 @@ def log_prob(action: np.ndarray, mean: np.ndarray, log_std: np.ndarray) -> np.nd
     """Return the logarithm of a Gaussian's density at each action, (n,).
 
     action and mean are (n, m). The m entries of an action are independent, and log_std
-    (m,) has the logarithms of their standard deviations.
+    (m,) has the logarithms of their standard deviations. The result is finite for an
+    action far from its mean as well.
     log_prob([[1]], [[0]], [0.693147]) -> [-1.737086]
     """
     # region 20.1
@@ -110,12 +111,12 @@ def gae(
 
     All arrays are (T, n). value and next_value are the values of the states before and
     after each step. terminated is True where the state after the step is worth 0. ended
-    is True at the last step of an episode: there, terminated is True for a true end and
-    False for an episode that was cut off. The row after an end belongs to another
-    episode. Elsewhere next_value is the value of the next row. The factors gamma and
-    lam are from 0 to 1. Rewards 1, 1 with the values 0.5, 0.5, the next values 0.5, 2,
-    and both factors 0.5 give 1.125, 1.5 if the second step is cut off, and 0.875, 0.5
-    if it terminates.
+    is True at the last step of an episode, and always in the last row. At these steps,
+    terminated is True for a true end and False for an episode that was cut off, and the
+    next row belongs to another episode. Elsewhere next_value is the value of the next
+    row. The factors gamma and lam are from 0 to 1. Rewards 1, 1 with the values 0.5,
+    0.5, the next values 0.5, 2, and both factors 0.5 give 1.125, 1.5 if the second step
+    is cut off, and 0.875, 0.5 if it terminates.
     """
     # region 20.3
     worth = np.where(terminated, 0, next_value)  # value of the state after the step
@@ -177,9 +178,9 @@ def policy_cost(
     """Return the expected cost of T steps with the policy u = -K x + std z.
 
     The entries of z are independent standard normal numbers. The system is x+ = A x + B
-    u, and a step costs x^T Q x + u^T R u. S is the matrix E[x x^T] at the start. With 1
-    for all matrices but K = 0.5, and T = 2, the cost is 1.5625 for std 0 and 4.8125 for
-    std 1.
+    u, and a step costs x^T Q x + u^T R u with symmetric Q and R. S is the matrix
+    E[x x^T] at the start. With 1 for all matrices but K = 0.5, and T = 2, the cost is
+    1.5625 for std 0 and 4.8125 for std 1.
     """
     # region 20.6
     M = A - B @ K  # the closed loop
@@ -526,7 +527,7 @@ def rows_of(policy: Policy, rng: np.random.Generator):
     inputs = policy.clock(seen)
     value = cloning.mlp(inputs, *policy.critic)[:, :, 0]
     end = np.zeros(got.shape, dtype=bool)
-    end[-1] = True  # the critic sees the clock, so the end of the time is a true end
+    end[-1] = True  # the critic receives the time, so the time limit is a true end
     advantage = gae(got, value[:-1], value[1:], end, end, GAMMA, LAM)
     target = (advantage + value[:-1]).reshape(-1, 1)
     x, drawn = inputs[:-1].reshape(-1, 5), drawn.reshape(-1, 2)
