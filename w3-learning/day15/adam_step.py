@@ -52,14 +52,14 @@ def _(theta, grad, m, v, k, rate):
       correction, because the next step would correct them again
     eps-in-the-root: your code adds 1e-8 inside the square root. Add it outside instead,
       after taking the square root
-    betas-swapped: your code swaps the decay rates. The rate of m is 0.9, and the rate
-      of v is 0.999
+    betas-swapped: your code swaps the two decay rates. The decay rate of m is 0.9, and
+      the decay rate of v is 0.999
     weights-swapped: your code gives the gradient the weight 0.9 and its square the
-      weight 0.999. Give these weights to the old averages m and v
-    weight-1: your code gives the gradient and its square the weight 1. In Adam the
-      weights are 0.1 and 0.001, so that m and v are averages
-    times-for-power: your code divides the averages by 1 - 0.9 k and 1 - 0.999 k. Raise
-      the decay rates to the power k instead
+      weight 0.999. Give these weights to the old averages m and v instead
+    weight-1: your code gives the gradient and its square the weight 1. Use the weights
+      0.1 and 0.001 instead, so that m and v are averages
+    times-for-power: your code divides the averages by 1 - 0.9 * k and 1 - 0.999 * k.
+      Raise the decay rates to the power k instead
     old-averages: your code updates theta with the old averages m and v. Update m and v
       first
     corrections-swapped: your code divides m by 1 - 0.999^k and v by 1 - 0.9^k. Swap the

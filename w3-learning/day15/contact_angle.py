@@ -31,20 +31,20 @@ row.cases(
 
 @row.wrongs
 def _(phi, distance, R):
-    """small-angle: your function returns phi * exp(distance / R). This is correct only
+    """small-angle: your function returns phi * exp(distance / R), which is correct only
       for small angles, where sin(phi) is almost phi. Integrate d(phi)/ds = sin(phi) / R
       instead
-    one-step: your function adds distance * sin(phi) / R once. The rate sin(phi) / R
-      changes along the path, so integrate the rate
+    one-step: your code computes phi + distance * sin(phi) / R, as if the rate sin(phi)
+      / R were constant. This rate changes along the path, so integrate it
     whole-angle: your function multiplies tan(phi) by exp(distance / R). Multiply
-      tan(phi / 2) by this factor, because d(phi)/ds = sin(phi) / R
+      tan(phi / 2) by this factor instead, because d(phi)/ds = sin(phi) / R
     linear-growth: your code multiplies tan(phi / 2) by 1 + distance / R. The rate of
       change of tan(phi / 2) is proportional to its value, so the factor should be an
       exponential
     sine-grows: your function multiplies sin(phi) by exp(distance / R), which is correct
-      only for small angles. Multiply tan(phi / 2) by this factor
+      only for small angles. Multiply tan(phi / 2) by this factor instead
     sine-grows 2: your function multiplies sin(phi) by exp(distance / R), which is
-      correct only for small angles. Multiply tan(phi / 2) by this factor
+      correct only for small angles. Multiply tan(phi / 2) by this factor instead
     """
     grown = np.sin(phi) * np.exp(distance / R)
     return {

@@ -35,7 +35,7 @@ def normalised_again(z, scaler):
 @row.wrong
 def own_statistics(z, scaler):
     """your code computes the mean and the standard deviation from z. Use the argument
-    `scaler`, with which the data were normalised"""
+    `scaler` instead, because the data were normalised with it"""
     spread = z.std(axis=0)
     return z * np.where(spread == 0, 1, spread) + z.mean(axis=0)
 

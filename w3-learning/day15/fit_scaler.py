@@ -28,26 +28,27 @@ row.cases(
 
 @row.wrongs
 def _(x):
-    """n-minus-one: your code divides by n - 1 in the standard deviation. Divide by n,
-      so that normalised columns have a standard deviation of exactly 1
-    about-0: your second row is the root mean square. Subtract the mean first, so that
-      the result is the standard deviation
+    """n-minus-one: your code computes the standard deviation with the divisor n - 1.
+      Divide by n instead, so that normalised columns have a standard deviation of
+      exactly 1
+    about-0: your second row contains the root mean square of each column. Subtract the
+      mean of the column first, so that the result is the standard deviation
     one-for-all: your code uses one mean and one standard deviation for all columns.
       Each column has its own unit and its own scale, so use axis=0
     spread-for-all: your code uses one standard deviation for all columns. Each column
       has its own unit and its own scale, so use axis=0
     variance: your second row is the variance. Take the square root of the variance
-    deviation: your second row is the mean absolute deviation. Take the root of the mean
-      squared deviation instead
+    deviation: your second row is the mean absolute deviation. Take the square root of
+      the mean squared deviation instead
     min-max: your code returns the minimum and the range of each column. Return the mean
       and the standard deviation instead
     constant-0: your code returns a standard deviation of 0 for a constant column, so
       `normalise` would divide by 0. Return 1 for such a column
     rounded-to-0: your code compares the standard deviation with 0, but rounding can
-      make it 1e-17 in a constant column. Compare the entries of the column with each
-      other instead
-    about-0 2: your second row is the root mean square. Subtract the mean first, so that
-      the result is the standard deviation
+      make it about 1e-17 for a constant column. Compare the entries of the column with
+      each other instead
+    about-0 2: your second row contains the root mean square of each column. Subtract
+      the mean of the column first, so that the result is the standard deviation
     one-for-all 2: your code uses one mean and one standard deviation for all columns.
       Each column has its own unit and its own scale, so use axis=0
     spread-for-all 2: your code uses one standard deviation for all columns. Each column

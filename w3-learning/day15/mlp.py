@@ -42,8 +42,8 @@ def _(rng):
 
 @row.wrongs
 def _(x, W1, b1, W2, b2, W3, b3):
-    """tanh-at-the-end: your code applies tanh to the output as well. The output layer
-      should be linear, because an action can be any number
+    """tanh-at-the-end: your code also applies tanh to the output. The output layer
+      should be linear, because an action can lie outside the interval from -1 to 1
     relu: your code applies max(0, z) in the hidden layers. Use tanh(z) instead
     logistic: your code applies the logistic function 1 / (1 + exp(-z)) in the hidden
       layers. Use tanh(z) instead

@@ -25,19 +25,19 @@ row.cases(
 
 @row.wrongs
 def _(pred, target):
-    """summed-over-columns: your loss is a sum over the columns and a mean over the
-      rows, and your gradient belongs to this loss. Take the mean over all n m entries
-      instead
-    summed-over-columns 2: your loss is a sum over the columns and a mean over the rows.
-      Take the mean over all n m entries instead
+    """summed-over-columns: your code sums the squared errors over the columns and
+      averages only over the rows, also in the gradient. Take the mean over all n * m
+      entries instead
+    summed-over-columns 2: your gradient is correct, but in the loss your code sums the
+      squared errors over the columns. Take the mean over all n * m entries instead
     absolute: your loss is the mean absolute error. Return the mean squared error
       instead
-    not-divided: your gradient is 2 (pred - target). The loss is a mean over n m
-      entries, so divide the gradient by n m
-    divided-by-rows: your code divides the gradient only by the number of rows. The loss
-      is a mean over rows and columns, so divide by n m
-    half: your loss and its gradient contain a factor of 1/2. Omit it, because the loss
-      of this task is the mean of the squared errors
+    not-divided: your gradient is 2 * (pred - target). Divide it by n * m, because the
+      loss is a mean over n * m entries
+    divided-by-rows: your code divides the gradient only by the number of rows. Divide
+      it by n * m, because the loss is a mean over rows and columns
+    half: your loss and its gradient contain a factor of 1/2. Omit this factor, because
+      the loss of this task is the mean of the squared errors
     """
     e = pred - target
     n = len(e)

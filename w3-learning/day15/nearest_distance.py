@@ -18,19 +18,21 @@ def _(rng):
 @row.wrongs
 def _(known, asked):
     """squared: your result is the squared distance. Return its square root
-    from-known: your code returns the distance from each known row to the nearest asked
-      row. Return the distance from each asked row to the nearest known row
+    from-known: your code returns the distance from each row of `known` to the nearest
+      row of `asked`. Return the distance from each row of `asked` to the nearest row of
+      `known` instead
     column-by-column: your code chooses the nearest value in each column separately.
-      Choose one nearest row for all columns
-    mean-distance: your result is the mean of the distances to all known rows. Return
-      the smallest distance instead
-    to-the-mean: your result is the distance to the mean of the known rows. Return the
-      distance to the nearest known row instead
+      Choose one nearest row for all columns instead
+    mean-distance: your result is the mean of the distances to all rows of `known`.
+      Return the smallest distance instead
+    to-the-mean: your result is the distance to the mean of the rows of `known`. Return
+      the distance to the nearest row of `known` instead
     index: your code returns the index of the nearest row. Return the distance to this
       row instead
-    one-for-all: your code returns the smallest of all distances for every asked row.
-      Each asked row has its own nearest row
-    city-block: your distance is the sum of the absolute differences. Return the
+    one-for-all: your code returns the smallest of all distances for every row of
+      `asked`. Return the distance from each row of `asked` to its own nearest row of
+      `known` instead
+    city-block: your code sums the absolute differences of the columns. Return the
       Euclidean distance instead
     """
     apart = known[:, None] - asked

@@ -29,7 +29,7 @@ def own_statistics(x, scaler):
 @row.wrong
 def first_column(x, scaler):
     """your code uses the mean and the standard deviation of the first column for all
-    columns. Use the whole rows scaler[0] and scaler[1]"""
+    columns. Use the whole rows scaler[0] and scaler[1] instead"""
     return (x - scaler[0, 0]) / scaler[1, 0]
 
 

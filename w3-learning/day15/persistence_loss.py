@@ -12,7 +12,7 @@ row = Row(
             r"np\.diff\(\s*action\s*\)",
             "last-axis",
             "Your function stops because np.diff(action) takes the differences of "
-            "adjacent columns. With axis=0, the function takes the differences of "
+            "adjacent columns. Use axis=0, so that it takes the differences of "
             "adjacent rows.",
         ),
     ),
@@ -50,27 +50,29 @@ row.cases(
 )
 def _(action, episode):
     """across-episodes: your code includes the change from the last row of an episode to
-      the first row of the next episode. Omit these pairs, because the policy repeats an
+      the first row of the next episode. Omit this change, because the policy repeats an
       action only within an episode
     start-from-0: your code includes the first row of each episode and uses 0 as its
       previous action. Omit this row, because it has no previous action
-    counted-as-0: your code counts the pairs across two episodes as changes of 0. Omit
-      these pairs from the mean
-    summed-over-columns: your code sums the squares over the columns. Take the mean over
-      the columns, as `mse` does
-    mean-of-means: your result is the mean of the mean values of the episodes. Take one
-      mean over all pairs, so that each pair has the same weight
-    mean-of-means 2: your result is the mean of the mean values of the episodes. Take
-      one mean over all pairs, so that each pair has the same weight
+    counted-as-0: your code sets the change between two episodes to 0, but still
+      includes it in the mean. Omit the pairs of rows from different episodes
+    summed-over-columns: your code sums the squared changes over the columns. Take the
+      mean over the columns instead, as `mse` does
+    mean-of-means: your code computes the mean over each episode, and then averages
+      these means. Take one mean over all pairs instead, so that each pair has the same
+      weight
+    mean-of-means 2: your code computes the mean over each episode, and then averages
+      these means. Take one mean over all pairs instead, so that each pair has the same
+      weight
     mean-action: your result is the loss of a policy that always returns the mean
-      action. Use the action of the previous row as the prediction
-    divided-by-all: your code divides the sum of the squares by the number of all
-      entries. An episode with n rows has only n - 1 pairs, so take the mean over the
-      pairs
+      action. Use the action of the previous row as the prediction instead
+    divided-by-all: your code divides the sum of the squared changes by the number of
+      entries in `action`. An episode with n rows has only n - 1 changes, so divide by
+      the number of squared changes
     across-columns: your code takes the differences between columns. Take the
-      differences between rows, along axis 0 instead
-    by-number: your code joins all rows with the same episode number, although this
-      number can occur again in a later episode. Use only pairs of adjacent rows
+      differences between rows (axis 0) instead
+    by-number: your code treats all rows with the same episode number as one episode. A
+      later episode can have the same number, so use only pairs of adjacent rows
     """
     change = action[1:] - action[:-1]
     same = episode[1:] == episode[:-1]

@@ -31,23 +31,24 @@ def _(rng):
     }
 )
 def _(episode, held_out):
-    """rows-for-episodes: your code uses the numbers in held_out as indices of rows.
-      They are numbers of episodes, so hold out every row whose entry in `episode` is
-      one of these numbers
-    as-many-rows: your code holds out the last len(held_out) rows. This can split an
-      episode, so hold out all rows of each held-out episode
-    sixty-rows: your code divides the index of a row by 60 to obtain its episode. Use
-      the numbers in `episode`, because an episode need not have 60 rows
+    """rows-for-episodes: your code uses the entries of held_out as row indices. These
+      entries are episode numbers, so hold out every row whose entry in `episode` is one
+      of these numbers
+    as-many-rows: your code holds out the last len(held_out) rows, which can split an
+      episode. Hold out all rows of each held-out episode instead
+    sixty-rows: your code divides the row index by 60 to obtain the episode number. Use
+      the numbers in `episode` instead, because an episode need not have 60 rows
     training-rows: your mask is True for the training rows. It should be True for the
       rows that are held out
     swapped: your code swaps the arguments of `np.isin`, so the result has one entry per
       held-out episode. Return one entry per row
-    indices: your code returns the indices of the held-out rows. Return a mask with True
-      or False for every row
+    indices: your code returns the indices of the held-out rows. Return a mask instead,
+      with True or False for every row
     as-a-range: your code holds out all episodes from the smallest to the largest number
       in held_out. Hold out only the episodes whose numbers are in held_out
-    positions: your code counts the episodes from 0 in ascending order and compares
-      these counts with held_out. Compare the numbers in `episode` with held_out instead
+    positions: your code renumbers the episodes as 0, 1, 2, ... in ascending order and
+      compares the new numbers with held_out. Compare the original numbers in `episode`
+      instead
     """
     rows = np.arange(len(episode))
     return {

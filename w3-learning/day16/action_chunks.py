@@ -68,27 +68,27 @@ def _(action, episode, K):
       entries after the end of the row's own episode, and their mask, to 0
     starts-next: your chunks begin with the action of the next row. Entry 0 of chunk i
       should be the action of row i itself
-    wraps: your chunks continue with the first rows of the data after the last row. Set
+    wraps: your chunks wrap around from the last row of the data to the first row. Set
       the entries after the end of the row's own episode, and their mask, to 0
-    by-number-only: your code assigns all rows with the same number to one episode. A
-      number may occur again in a later episode, so begin a new episode wherever the
-      number changes
+    by-number-only: your code treats all rows with the same episode number as one
+      episode. A later episode can have the same number, so begin a new episode wherever
+      the number changes
     mask-all-ones: your mask is 1 everywhere. Set it to 0 for the entries after the end
       of the row's episode
     held: your code repeats the last action of an episode in the entries after its end.
       Set these entries to 0 instead
-    wraps-within: your chunks continue with the first rows of the same episode after its
-      last row. Set the entries after the end of the episode, and their mask, to 0
-    past: your chunk i contains the action of row i - j as entry j. Use the action of
-      row i + j instead
+    wraps-within: your chunks wrap around from the last row of an episode to its first
+      row. Set the entries after the end of the episode, and their mask, to 0
+    past: your code uses the action of row i - j as entry j of chunk i. Use the action
+      of row i + j instead
     mask-swapped: your mask is inverted. It should be 1 for the entries that exist and 0
       for all others
     mask-of-rows: your code sets the whole mask of an incomplete chunk to 0. Set it to 0
       only for the entries after the end of the episode
     ends-the-data 2: your chunks continue with actions of the next episode. Set the
       entries after the end of the row's own episode to 0
-    wraps 2: your chunks continue with the first rows of the data after the last row.
-      Set the entries after the end of the row's own episode, and their mask, to 0
+    wraps 2: your chunks wrap around from the last row of the data to the first row. Set
+      the entries after the end of the row's own episode, and their mask, to 0
     last-row-dropped: your chunks end one row before the end of the episode. Include the
       action of the last row, because this row belongs to the episode
     last-row-dropped 2: your mask is 0 for the action of an episode's last row. Set it

@@ -62,8 +62,8 @@ def _(q, k, v):
       to each scaled product before this division
     base-2: your code uses powers of 2 in the softmax. Use exp of the scaled products
       instead
-    sigmoid: your code applies the sigmoid to the scaled products, and divides by the
-      sum of each row. Apply exp instead of the sigmoid
+    sigmoid: your code applies the sigmoid to the scaled products and divides each
+      result by the sum of its row. Apply exp instead of the sigmoid
     cosines: your code divides queries and keys by their norms. Omit this division, and
       divide their scalar products by sqrt(d) only
     cosines 2: your code divides queries and keys by their norms. Omit this division,

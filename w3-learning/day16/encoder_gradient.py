@@ -47,7 +47,7 @@ def _(dz, mu, logvar, noise, beta):
     kl-not-divided 2: your code divides the derivatives of the divergence by the number
       of all entries, n * z. Divide them by n only, because the loss sums the divergence
       over the z columns
-    dz-divided: your code divides dz by n. Omit this division, because dz already is the
+    dz-divided: your code divides dz by n. Omit this division, because dz is already the
       gradient of the decoder's loss
     dz-not-passed-on: your gradient with respect to logvar contains only the derivative
       of the divergence. Add dz times the derivative of the sample with respect to

@@ -30,7 +30,7 @@ def _(k, decay):
       weights only. Use the weights of `temporal_ensemble`, add the variances of the
       weighted errors, and take the square root of their sum
     sum-not-squared: your function returns 1, because it does not square the weights.
-      Square each weight before you add, because the variance of each error is
+      Sum the squares of the weights instead, because the variance of each error is
       multiplied by the square of its weight
     effective-number: your function returns 1 / sum(w^2) for the weights w. This value
       is the number of equally weighted plans that leave the same noise. Return the

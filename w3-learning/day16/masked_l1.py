@@ -51,29 +51,28 @@ row.cases(
 
 @row.wrongs
 def _(pred, target, mask):
-    """divided-by-all: your code divides the sum of the errors by the number of all
-      errors, n * K * m, which includes the padding. Divide it by m times the sum of the
-      mask instead
-    mask-forgotten: your code averages the errors over the padded entries as well, which
-      have no target. Multiply the errors by the mask, and divide their sum by m times
-      the sum of the mask
+    """divided-by-all: your code divides the sum of the absolute errors by n * K * m,
+      which also counts the padded entries. Divide it by m times the sum of the mask
+      instead
+    mask-forgotten: your code includes the padded entries in the mean, although they
+      have no target. Multiply the absolute errors by the mask, and divide their sum by
+      m times the sum of the mask
     loss-unmasked: your gradient is correct, but your loss is the mean over all entries,
-      including the padding. Multiply the errors by the mask, and divide their sum by m
-      times the sum of the mask
+      including the padding. Multiply the absolute errors by the mask, and divide their
+      sum by m times the sum of the mask
     gradient-unmasked: your loss is correct, but your gradient is not 0 for padded
       entries. Multiply the gradient by the mask, because padded entries have no effect
       on the loss
     squared: your function computes the mean squared error and its gradient. Use the
       absolute values of the errors instead of their squares
     mean-of-means: your code computes the mean absolute error of each row, and then
-      averages these means. Take one mean over all entries that exist instead, so that
+      averages these means. Take one mean over all existing entries instead, so that
       each entry has the same weight
-    gradient-not-divided: your gradient contains the sign of each error without a
-      division. Divide it by m times the sum of the mask, because the loss is divided by
-      this number
-    divided-by-rows: your code divides the sum of the errors by the number of rows.
-      Divide it by m times the sum of the mask instead, which is the number of existing
-      errors
+    gradient-not-divided: your gradient is the sign of each existing error. Divide it by
+      m times the sum of the mask, as in the loss
+    divided-by-rows: your code divides the sum of the absolute errors by the number of
+      rows. Divide it by m times the sum of the mask instead, which is the number of
+      existing errors
     gradient-by-all: your loss is correct, but your code divides the gradient by the
       total number of entries, including the padding. Divide it by m times the sum of
       the mask, as in the loss

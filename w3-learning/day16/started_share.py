@@ -25,18 +25,18 @@ def _(wait, K):
     """majority: your function returns the median over the rows, which is 1 if the
       motion has started in more than half of the rows. Return the fraction of the rows
       in which the motion has started instead
-    wait-not-plus-1: your code divides by `wait`. Divide by wait + 1 instead, because
-      wait + 1 rows have the same observation
+    wait-not-plus-1: your code divides j + 1 by `wait`. Divide it by wait + 1 instead,
+      because wait + 1 rows have the same observation
     not-clamped: your function returns fractions above 1. Limit each fraction to 1,
       because the motion has started in all rows from entry `wait` on
     one-jump: your function returns the chunk of the first row, which is 0 before entry
       `wait` and 1 from this entry on. Average the chunks of all wait + 1 rows instead
     one-entry-late: your function returns j / (wait + 1). Use j + 1 instead of j,
       because entry 0 is already at full speed in the row with 0 remaining steps
-    moving-row-omitted: your code averages over the `wait` rows of the pause only.
+    moving-row-omitted: your code averages only over the `wait` rows of the pause.
       Include the first row in which the demonstrator moves, because it has the same
       observation
-    moving-row-omitted 2: your code averages over the `wait` rows of the pause only.
+    moving-row-omitted 2: your code averages only over the `wait` rows of the pause.
       Include the first row in which the demonstrator moves, because it has the same
       observation
     one-entry-early: your function returns (j + 2) / (wait + 1). Use j + 1 instead of j

@@ -49,9 +49,10 @@ def _(plans, decay):
     last-entries: your code averages the last entries of all plans. Use entry k - 1 - i
       of plan i instead, which is the entry for the current step
     counted-from-the-end: your code uses entry K - 1 - i of plan i. Use entry k - 1 - i
-      instead, because the first entry of the newest plan is for the current step
-    one-entry-late: your code uses entry k - i of plan i. For the newest plan, i = k -
-      1, the entry for the current step is the first one, which has index 0
+      instead, because the first entry of the newest plan, with index 0, is for the
+      current step
+    one-entry-late: your code uses entry k - i of plan i. Use entry k - 1 - i instead,
+      because the first entry of the newest plan, with index 0, is for the current step
     moving-average: your code computes an exponential moving average, which uses the
       same two factors in every step. The weight of plan i should be exp(-decay * i)
       divided by the sum of these exponentials over all plans

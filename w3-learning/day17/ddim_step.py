@@ -39,7 +39,7 @@ def _(x, eps, abar, prev):
     ddpm-mean: your function returns the mean of a random step (task 17.5). For a
       deterministic step, multiply the clean samples by sqrt(prev) and add sqrt(1 -
       prev) * eps
-    last-step-skipped: your function returns x at prev = 1. Return the clean samples
+    last-step-skipped: your function returns x for prev = 1. Return the clean samples
       instead, because the last step removes all the noise
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)

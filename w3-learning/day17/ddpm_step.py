@@ -45,10 +45,10 @@ def _(x, eps, abar, prev, noise):
       mean of the Gaussian instead, which is a weighted sum of the clean sample and x
     alpha-inverted: your code uses prev / abar as alpha, so alpha is above 1. Use abar /
       prev instead, because the signal becomes weaker from prev to abar
-    alpha-inverted 2: your code uses alpha = prev / abar in the two weights, so alpha is
-      above 1. Use abar / prev instead, because the signal becomes weaker from prev to
-      abar
-    alpha-inverted 3: your code uses prev / abar as alpha, and takes the absolute value
+    alpha-inverted 2: your code uses prev / abar as alpha in the two weights, so alpha
+      is above 1. Use abar / prev instead, because the signal becomes weaker from prev
+      to abar
+    alpha-inverted 3: your code uses prev / abar as alpha and takes the absolute value
       of the negative variance. Use abar / prev instead, because the signal becomes
       weaker from prev to abar
     eps-of-one-step: your code subtracts sqrt(1 - alpha) * eps from x. Use the factor (1

@@ -44,7 +44,8 @@ def _(slow, fast, k):
       0.995, because otherwise the average follows the new parameters more and more
       slowly
     average-before: your code uses k / (9 + k) as the weight of the old average. Use (1
-      + k) / (10 + k) instead, because the first average has k = 0 and the weight 1 / 10
+      + k) / (10 + k) instead, so that this weight is 1 / 10 in the first call, where k
+      = 0
     decay-0: your function returns the new parameters, because the weight of the old
       average is 0. This weight should be (1 + k) / (10 + k). Compute it with / and not
       with //, which rounds it down to 0

@@ -37,16 +37,16 @@ def _(x, abar, means, sigma, weights):
       means by sqrt(1 - abar). Multiply it by sqrt(1 - abar) / (abar * sigma^2 + 1 -
       abar) instead, because the data also contribute to the deviation
     data-width-forgotten 3: your code uses the variance 1 - abar in the exponent. Use
-      abar * sigma^2 + 1 - abar instead, as in the factor of the result
+      abar * sigma^2 + 1 - abar instead, which is the variance of each noisy mode
     x-not-deviation: your code multiplies x by sqrt(1 - abar) divided by the variance.
       Replace x by its mean deviation from the noisy means, weighted by the
       probabilities of the modes given x
     nearest-mode: your code uses only the mode nearest to each row. Return the mean
       noise over all modes instead, weighted by the probabilities of the modes given x
-    nearest-mode 2: your code assigns each row to its most probable mode alone. Return
-      the mean noise over all modes instead, weighted by the probabilities of the
-      modes given x
-    weights-only: your code uses probabilities of the modes that do not depend on x.
+    nearest-mode 2: your code assigns each row only to its most probable mode. Return
+      the mean noise over all modes instead, weighted by the probabilities of the modes
+      given x
+    weights-only: in your code, the probabilities of the modes do not depend on x.
       Multiply the weight of each mode by its density at x, and normalise the products
     clean: your function returns the mean of the data given x. Return the mean of the
       noise given x instead
@@ -69,11 +69,12 @@ def _(x, abar, means, sigma, weights):
     overflow 3: your code subtracts the largest exponent of each mode over all rows,
       which changes the probabilities. Subtract the largest exponent of each row over
       all modes instead
-    overflow 4: your function returns 0 far from all modes, because all densities
-      underflow to 0. Subtract the largest exponent of each row before you call exp
+    overflow 4: your function returns 0 for a row far from all modes, because all
+      densities of the row underflow to 0. Subtract the largest exponent of each row
+      before you call exp
     overflow 5: your code adds a small number to the sum of the densities, so all
-      probabilities are 0 where all densities underflow to 0. Subtract the largest
-      exponent of each row before you call exp instead
+      probabilities are 0 for a row far from all modes. Subtract the largest exponent of
+      each row before you call exp instead
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
     given = x, keep, lose, means, sigma, weights

@@ -38,22 +38,21 @@ def _(x, t, means, sigma, weights):
       Use t^2 * sigma^2 + (1 - t)^2 instead, because the data in a mode have the
       variance sigma^2
     data-width-forgotten 2: your code uses the variance (1 - t)^2 in the exponent. Use
-      t^2 * sigma^2 + (1 - t)^2 instead, as in the slope of the velocity
-    x-not-deviation: your code multiplies x by the slope of the velocity. Multiply the
-      deviation of x from its mean in each mode instead. The mean of x in a mode is t
-      times the mode's mean
+      t^2 * sigma^2 + (1 - t)^2 instead, which is the variance of x in each mode
+    x-not-deviation: your code multiplies x by covariance / variance, as if x had the
+      mean 0. Multiply x - t * mean by this factor instead, where mean is the mode's
+      mean
     distance-so-far: your function returns the mean displacement from the noise to x.
       Return the mean velocity instead, which is the mean of data - noise given x
-    division-by-0 2: your code divides by t, which is 0 at the start. Use the slope of
-      the velocity instead, which is the covariance of x and the velocity divided by the
-      variance of x
+    division-by-0 2: your code divides by t, which is 0 at the start. Use the formula of
+      the conditional mean instead, which divides only by the variance of x in each mode
     nearest-mode: your code uses only the mode nearest to each row. Return the mean
       velocity over all modes instead, weighted by the probabilities of the modes
       given x
-    nearest-mode 2: your code assigns each row to its most probable mode alone. Return
+    nearest-mode 2: your code assigns each row only to its most probable mode. Return
       the mean velocity over all modes instead, weighted by the probabilities of the
       modes given x
-    weights-only: your code uses probabilities of the modes that do not depend on x.
+    weights-only: in your code, the probabilities of the modes do not depend on x.
       Multiply the weight of each mode by its density at x, and normalise the products
     clean: your function returns the mean of the data given x. Return the mean of data -
       noise given x instead
@@ -66,12 +65,12 @@ def _(x, t, means, sigma, weights):
       t^2 * sigma^2 + (1 - t)^2 instead, because the variance contains the squares of
       the factors of data and noise
     noisy-means: your code uses t times the mode's mean as the mean velocity in a mode.
-      Use the mode's mean itself, because t times the mode's mean is the mean of x
-    division-by-0: your code divides by 1 - t, which is 0 at t = 1. Use the slope of the
-      velocity instead, which is the covariance of x and the velocity divided by the
-      variance of x
-    means-only: your code uses the mode's mean as the velocity in a mode. Add the slope
-      of the velocity times the deviation of x from t times the mode's mean
+      Use the mode's mean itself instead, because t times the mode's mean is the mean of
+      x
+    division-by-0: your code divides by 1 - t, which is 0 at t = 1. Use the formula of
+      the conditional mean instead, which divides only by the variance of x in each mode
+    means-only: your code uses the mode's mean as the velocity in a mode. Add (x - t *
+      mean) * covariance / variance, where mean is the mode's mean
     time-reversed: your code uses the factor 1 - t for the data and t for the noise.
       Swap these factors, because x is the noise at t = 0 and the data at t = 1
     diffusion-roots: your code uses the factor sqrt(t) for the data and sqrt(1 - t) for
@@ -92,11 +91,12 @@ def _(x, t, means, sigma, weights):
     overflow 3: your code subtracts the largest exponent of each mode over all rows,
       which changes the probabilities. Subtract the largest exponent of each row over
       all modes instead
-    overflow 4: your function returns 0 far from all modes, because all densities
-      underflow to 0. Subtract the largest exponent of each row before you call exp
+    overflow 4: your function returns 0 for a row far from all modes, because all
+      densities of the row underflow to 0. Subtract the largest exponent of each row
+      before you call exp
     overflow 5: your code adds a small number to the sum of the densities, so all
-      probabilities are 0 where all densities underflow to 0. Subtract the largest
-      exponent of each row before you call exp instead
+      probabilities are 0 for a row far from all modes. Subtract the largest exponent of
+      each row before you call exp instead
     """
     given = x, t, 1 - t, means, sigma, weights
 

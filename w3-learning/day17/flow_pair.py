@@ -51,7 +51,7 @@ def _(x0, noise, t):
     divided-by-the-rest: your code divides x0 - noise by 1 - t. Omit this division,
       because the point moves by x0 - noise between t = 0 and t = 1
     division-by-0: your code divides the displacement from the noise by t, which gives 0
-      / 0 at t = 0. Compute the velocity directly from data and noise, without a
+      / 0 at t = 0. Compute the velocity directly from the data and the noise, without a
       division
     """
     t = t[:, None]

@@ -43,10 +43,10 @@ def _(abars, sigma):
       Multiply the result by the cosine of this step as well
     last-step-forgotten 2: your code omits the step from the last level to abar = 1 if
       there are several levels. Multiply the result by the cosine of this step as well
-    last-level-0: your last step leads to abar = 0, which is pure noise. It should lead
-      to abar = 1, which is the data without noise
-    last-level-first: your code inserts abar = 1 before the other levels. Append it
-      after the other levels, because the last step leads to abar = 1
+    last-level-0: your last step leads to abar = 0, which is pure noise. This step
+      should lead to abar = 1, which is the data without noise
+    last-level-first: your code puts abar = 1 before the other levels. Put it after the
+      other levels instead, because the last step leads to abar = 1
     sines: your code multiplies the sines of the angles. Use the cosines instead,
       because each step multiplies the width by the cosine of its angle
     pure-noise-first: your code adds a step from abar = 0 to the first level. Omit this
@@ -56,10 +56,10 @@ def _(abars, sigma):
     sum: your function returns the sum of the cosines. Each step multiplies the width by
       the cosine of its angle, so return the product of the cosines
     width: your function returns the standard deviation after all steps. Divide it by
-      sigma to obtain the fraction
+      sigma to obtain the fraction that the steps keep
     start-1: your code starts from the standard deviation 1. Start from the standard
-      deviation of the noisy data at the first level, which is the norm of the first
-      vector
+      deviation of the noisy data at the first level instead, which is the norm of the
+      first vector
     lengths-kept: your code divides each scalar product by the square of the first
       vector's norm. Divide it by the product of the norms of both vectors instead,
       which gives the cosine

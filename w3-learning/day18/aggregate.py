@@ -49,7 +49,7 @@ def _(first, second):
     first-shifted: your code shifts the episode numbers of the first data set. Keep the
       numbers of the first set, and shift the numbers of the second set instead
     per-row: your code assigns a new episode number to each row of the second data set.
-      Rows of one episode need a common number, so shift all numbers by the same amount
+      All rows of an episode need the same number, so add the same shift to all numbers
     counted: your code shifts the episode numbers by the number of episodes in the first
       data set. Use the largest number in this set plus 1, because some numbers can be
       missing
@@ -60,7 +60,7 @@ def _(first, second):
     second-first: your code puts the rows of the second data set first. Put the rows of
       the second data set after the rows of the first
     renumbered: your code renumbers the episodes of both data sets from 0. Keep the
-      episode numbers of the first data set, and only shift the numbers of the second
+      episode numbers of the first data set, and shift only the numbers of the second
     without-gaps: your code renumbers the episodes of the second data set without gaps.
       Add the same shift to all episode numbers of this set instead
     without-gaps 2: your code renumbers the episodes of the second data set without

@@ -35,7 +35,7 @@ def _(rng):
 @row.wrongs
 def _(p, n, k):
     """mean: your function returns the expected success rate of a single policy. Return
-      the expected success rate of the best of k policies, which is larger for k > 1
+      the expected success rate of the best of k policies instead
     any-success: your function returns the probability of at least one success on k
       starts. Return the expected value of the largest of the k numbers of successes,
       divided by n
@@ -54,15 +54,15 @@ def _(p, n, k):
     times-k 2: your code multiplies the binomial distribution function F by k and limits
       the product to 1. Use F(s)^k, the probability that all k policies have at most s
       successes
-    density: your code uses k F^(k - 1) f, the density of the maximum of k continuous
-      variables with distribution function F and density f. The largest number of
-      successes is s with probability F(s)^k - F(s - 1)^k
-    possible-numbers: your code divides by n + 1, the number of possible results of a
-      test. Divide by the number of starts, n, instead
+    density: your code uses k * F^(k - 1) * f, the density of the maximum of k
+      continuous variables with distribution function F and density f. The largest
+      number of successes is s with probability F(s)^k - F(s - 1)^k
+    possible-numbers: your code divides the expected number of successes by n + 1, the
+      number of possible results of a test. Divide it by n instead, the number of starts
     median: your function returns the median of the largest of the k numbers of
       successes, divided by n. Return the expected value of this number, divided by n
-    normal: your function uses the normal approximation p + sqrt(2 ln(k) p (1 - p) / n).
-      Compute the expected value with the exact binomial probabilities instead
+    normal: your function uses the normal approximation p + sqrt(2 * ln(k) * p * (1 - p)
+      / n). Compute the expected value with the exact binomial probabilities instead
     """
     cdf = np.cumsum(pmf(n, p))
     below = np.minimum(cdf[:n], 1.0)

@@ -44,8 +44,8 @@ def _(a, step, T):
     limit 2: your function returns the limit of the error for infinitely many steps,
       `step` / (1 - a), if a is below 1. Multiply this limit by 1 - a^T, because T is
       finite
-    near-1: your code uses `step` * T for values of a near 1 as well. Use this product
-      for a = 1 only, and the geometric sum for all other values
+    near-1: your code uses `step` * T also for values of a near 1. Use this product only
+      for a = 1, and the geometric sum for all other values
     zero-at-1: your function returns 0 for a = 1. In this case each step adds `step` to
       the error, so return `step` * T
     one-error: your function returns `step` * a^T, so only a single error grows. Each of
@@ -53,10 +53,10 @@ def _(a, step, T):
     one-error 2: your function returns `step` * a^(T - 1), so only the first error is
       included. Each of the T steps adds a new error, so return the sum of all T
       contributions
-    summed-errors: your function returns the sum of the errors after all steps. Return
-      only the error after the last step
-    continuous: your code uses exp((a - 1) T), which approximates a^T only for a near 1.
-      Each step multiplies the error by a, so use a^T instead
+    summed-errors: your function sums the error over all steps. Return only the error
+      after the last step
+    continuous: your code uses exp((a - 1) * T), which approximates a^T only for a near
+      1. Each step multiplies the error by a, so use a^T instead
     step-multiplied: your code also multiplies the newly added error by a. Multiply only
       the previous error by a, and then add `step`
     """

@@ -41,13 +41,13 @@ def _(rng):
 @row.wrongs(hidden={"one-direction-doubled": "the lab has no gap of 0"})
 def _(p, n, gap):
     """rates-as-floats: your code compares the difference of the success rates with gap
-      / n. Compare the numbers of successes with gap instead, because rounding errors of
-      the rates exclude some pairs
+      / n. Compare the difference of the numbers of successes with gap instead, because
+      rounding errors of the rates exclude some pairs
     one-direction: your code includes only the pairs of results in which the first test
-      has more successes than the second, by at least `gap`. The difference can have
-      either sign, so also include the pairs in which the second test has more
+      has at least `gap` more successes than the second. The difference can have either
+      sign, so also include the pairs in which the second test has more
     one-set: your code compares the result of one test with the expected number of
-      successes, n p. The results of both tests are random, so sum over all pairs of
+      successes, n * p. The results of both tests are random, so sum over all pairs of
       results
     normal: your function uses a normal approximation. Sum the exact binomial
       probabilities instead, because the approximation is inaccurate for few starts

@@ -41,7 +41,7 @@ def _(p):
       limit only for the smallest p-value, 0.05 / (m - 1) for the next p-value, and so
       on
     no-stop: your code continues after a p-value that is larger than its limit. Stop at
-      this p-value, because all larger p-values are not significant either
+      this p-value, because no larger p-value is significant either
     hochberg: your code starts with the largest p-value (Hochberg's method). Start with
       the smallest p-value, and stop at the first p-value that is larger than its limit
     sorted: your code returns the mask in the order of the sorted p-values. Entry i of
@@ -49,8 +49,8 @@ def _(p):
     benjamini-hochberg: your code uses the method of Benjamini and Hochberg, whose
       limits are 0.05 / m, 0.10 / m, and so on. Use Holm's limits 0.05 / m, 0.05 / (m -
       1), and so on
-    not-equal: your code requires each p-value to be smaller than its limit. Include
-      equality, because a p-value that is equal to its limit is significant
+    not-equal: your code requires each p-value to be smaller than its limit. Use <=
+      instead of <, because a p-value that is equal to its limit is significant
     one-later: your code starts with the limit 0.05 / (m - 1). Compare the smallest
       p-value with 0.05 / m, the next p-value with 0.05 / (m - 1), and so on
     unsorted: your code compares the p-values in the order of the argument. Sort the

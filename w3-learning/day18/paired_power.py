@@ -95,8 +95,8 @@ def _(win, lose, n, level):
     expected-number: your code uses only the rounded expected number of differing
       starts. The number of differing starts is random, so sum over all possible values
       of this number
-    first-only: your code includes a reported difference only if the first policy has
-      more wins. The sign test is two-sided, so include reported differences in both
+    first-only: your code includes only reported differences in favour of the first
+      policy. The sign test is two-sided, so include reported differences in both
       directions
     one-sided: your code uses a one-sided p-value. Use the two-sided p-value of
       `sign_test` instead
@@ -104,7 +104,8 @@ def _(win, lose, n, level):
       cannot be both a win and a loss, so sum over the number of differing starts and
       over the wins among these starts
     win-as-share: your code uses win as the probability of a win on a differing start.
-      Given that the start differs, this probability should be win / (win + lose)
+      Given that the start differs, the probability of a win is win / (win + lose), so
+      use this fraction
     fair-share: your code uses 1/2 as the probability of a win on a differing start, as
       if both policies were equally good. Use win / (win + lose) instead
     normal: your code uses a normal approximation of the p-value. Use the exact p-value
@@ -113,10 +114,10 @@ def _(win, lose, n, level):
       probabilities of all numbers of wins and losses for which the p-value is at most
       level
     level-fixed: your code compares the p-value with 0.05. Compare the p-value with the
-      argument level instead
+      argument `level` instead
     equal-numbers: your code assigns the same probability to every possible number of
-      differing starts. The number of differing starts has a binomial distribution with
-      n trials
+      differing starts. This number has a binomial distribution with n trials and the
+      probability win + lose
     chosen-from-all: your code chooses the losses from all n starts. Choose the losses
       from the starts that are not wins, because a start cannot be both a win and a loss
     """

@@ -77,7 +77,7 @@ def _(first, second):
       the observed split, unless the observed split is even. Always include the observed
       split
     wins-only: your code sums the probabilities up to the number of wins, even if there
-      are fewer losses. Sum up to the smaller of the two numbers instead
+      are fewer losses. End the sum at the smaller of the two numbers instead
     four-times: your p-value is four times the probability of one tail. Use twice this
       probability instead, because there are two tails
     zero-if-none: your p-value is 0 if the policies differ on no start. In this case

@@ -33,8 +33,9 @@ row.cases(
 
 @row.wrongs
 def _(pred, target, weight):
-    """mean: your code divides by the number of rows. Divide by the sum of the weights
-      instead, so that doubling all weights does not change the loss
+    """mean: your code divides the weighted sum of the squared errors by the number of
+      rows. Divide it by the sum of the weights instead, so that doubling all weights
+      does not change the loss
     summed: your code does not divide by the sum of the weights. The loss is a weighted
       mean, so divide both the loss and the gradient by this sum
     summed-over-columns: your code sums the squared errors over the columns. Take the
@@ -46,7 +47,7 @@ def _(pred, target, weight):
     gradient-unweighted: your gradient ignores the weights. Multiply each row of the
       gradient by its weight, and divide by the sum of the weights instead of the number
       of rows
-    gradient-not-divided: your gradient is 2 w e, where w is the weight and e is the
+    gradient-not-divided: your gradient is 2 * w * e, where w is the weight and e is the
       error. Divide this product by the sum of the weights and by the number of columns,
       as in the loss
     gradient-mean: your code divides the gradient by the number of rows. Divide the
@@ -55,11 +56,12 @@ def _(pred, target, weight):
       error instead
     row-means: your code squares the mean error of each row. Take the mean of the
       squared errors instead, because errors of opposite sign cancel in the mean error
-    largest-weight: your code divides by the product of the largest weight and the
-      number of rows. Divide by the sum of the weights instead
-    weighted-rows: your code divides by the number of rows whose weight is not 0. Divide
-      by the sum of the weights instead, so that doubling all weights does not change
-      the loss
+    largest-weight: your code divides the weighted sum of the squared errors by the
+      product of the largest weight and the number of rows. Divide it by the sum of the
+      weights instead
+    weighted-rows: your code divides the weighted sum of the squared errors by the
+      number of rows whose weight is not 0. Divide it by the sum of the weights instead,
+      so that doubling all weights does not change the loss
     """
     e = pred - target
     n, m = e.shape

@@ -53,20 +53,19 @@ def _(spacing, sigma):
     """in-pixels: your function returns the error in pixels. Multiply this error by the
       spacing, so that the result has the unit of the arguments
     amplitude-of-the-sum: your code uses the amplitude of the first term of Poisson's
-      sum as the error. The error is sigma^2 times the derivative of this sum with
+      sum as the error. The error is sigma^2 times the derivative of this term with
       respect to the position
     twice-the-first-frequency: your code uses the exponent of the second term of
       Poisson's summation formula. Use the exponent of the first term, which has a
       period of one pixel
-    without-2-pi: your code omits a factor 2 pi. The derivative of cos(2 pi u) with
-      respect to u contains this factor
-    inverted: your code divides the spacing by sigma. The blur in pixels is sigma /
-      spacing
-    divided-by-the-sum: your code divides by Poisson's sum up to its second term. Only
-      the lowest frequency should be considered, so the sum is 1 in the denominator
-    unit-squared: your result has the unit of sigma squared, but it should be a length.
-      In the derivation all lengths are in pixels, so use sigma / spacing, and multiply
-      the result by the spacing
+    without-2-pi: your code omits a factor of 2 * pi. The derivative of cos(2 * pi * u)
+      with respect to u contains this factor
+    inverted: your code divides the spacing by sigma. Divide sigma by the spacing
+      instead, which gives the blur in pixels
+    divided-by-the-sum: your code divides by Poisson's sum, including its second term.
+      Only the lowest frequency should be considered, so omit this division
+    unit-squared: your result has the unit of sigma^2, but it should be a length. Use
+      (sigma / spacing)^2 instead of sigma^2, and multiply the result by the spacing
     """
     r = sigma / spacing
     decay = np.exp(-2 * np.pi**2 * r**2)

@@ -63,8 +63,8 @@ def _(image, kernel, stride):
       entries. Return the sum of the products without this division
     transposed: your code transposes the kernel. Multiply entry [a, b] of the kernel by
       pixel [a, b] of the window
-    output-transposed: your output has one row for each column of windows. Output [i, j]
-      belongs to the window that begins at pixel [i stride, j stride]
+    output-transposed: your output is transposed. Output [i, j] should belong to the
+      window that begins at pixel [i * stride, j * stride]
     """
     right = correlated(image, kernel, stride)
     return {
@@ -88,11 +88,11 @@ def _(image, kernel, stride):
     across-the-edge: your code includes windows that begin inside the image and extend
       beyond its last row or column. Return one output for each window that lies inside
       the image
-    one-less: your output lacks the last row and the last column of windows. If the
-      kernel is as large as the image, one window fits, so count the first window too
+    one-less: your output omits the last row and the last column of windows. Add 1 to
+      the number of strides that fit, because the first window needs no stride
     counted-before-the-division: your code adds 1 before it divides by the stride and
-      rounds down, so windows are missing if pixels are left over. The first window
-      always fits, so add 1 after the division
+      rounds down, so windows are missing if pixels are left over. Add 1 after the
+      division instead, because the first window always fits
     without-the-last: your code omits windows that end at the last row or column of the
       image. These windows lie inside the image, so include them
     """
@@ -119,17 +119,17 @@ def _(image, kernel, stride):
 def _(image, kernel, stride):
     """stride-ignored: your code ignores the stride. Use only every stride-th window
       along each axis
-    at-i-j: the window of your output [i, j] begins at pixel [i, j]. This window should
-      begin at pixel [i stride, j stride]
+    at-i-j: in your code, the window of output [i, j] begins at pixel [i, j]. This
+      window should begin at pixel [i * stride, j * stride]
     stride-along-y-only: your code applies the stride to the rows of the image, but not
-      to its columns. Windows beside each other should also be a stride apart
+      to its columns. Move the window by the stride along both axes
     stride-along-x-only: your code applies the stride to the columns of the image, but
-      not to its rows. Windows below each other should also be a stride apart
+      not to its rows. Move the window by the stride along both axes
     apart: your code moves the window by the size of the kernel. Move the window by the
       stride instead, so that windows can overlap
     sampled-first: your code discards the pixels between the strides before it applies
-      the kernel. The stride is the distance between windows, and each window contains
-      neighbouring pixels of the image
+      the kernel. Apply the kernel to adjacent pixels, and use the stride only as the
+      distance between windows
     """
     m, n = correlated(image, kernel, stride).shape
     each = correlated(image, kernel, 1)

@@ -66,10 +66,10 @@ def _(image, kernel, stride, d):
     """kernel-flipped: your code flips the gradient with respect to the kernel along
       both axes. Entry [a, b] of this gradient should be the sum of d times pixel [a, b]
       of each window
-    image-by-flipped: your gradient with respect to the image is right for the kernel
-      flipped along both axes. Add d[i, j] times the unflipped kernel to the entries of
-      the gradient in the window of output [i, j]. If you correlate d with the kernel
-      instead, this correlation needs the flipped kernel
+    image-by-flipped: your gradient with respect to the image is correct for a kernel
+      that is flipped along both axes. Add d[i, j] times the unflipped kernel to the
+      entries of the gradient in the window of output [i, j]. If you correlate d with
+      the kernel instead, flip the kernel first
     overwritten: your code overwrites the gradient with respect to the image where
       windows overlap. Add the contributions of all windows that contain a pixel instead
     averaged: your code averages the contributions to a pixel that lies in several
@@ -104,18 +104,18 @@ def _(image, kernel, stride, d):
 def _(image, kernel, stride, d):
     """stride-only-for-image: your code applies the stride to the gradient with respect
       to the image, but not to the gradient with respect to the kernel. Output [i, j]
-      uses the window that begins at pixel [i stride, j stride]
+      uses the window that begins at pixel [i * stride, j * stride]
     stride-only-for-kernel: your code applies the stride to the gradient with respect to
       the kernel, but not to the gradient with respect to the image. Output [i, j] uses
-      the window that begins at pixel [i stride, j stride]
+      the window that begins at pixel [i * stride, j * stride]
     stride-forgotten: your code ignores the stride. Output [i, j] uses the window that
-      begins at pixel [i stride, j stride]
+      begins at pixel [i * stride, j * stride]
     windows-for-image: your code adds d times the windows of the image to the gradient
-      with respect to the image. The derivative of an output with respect to a pixel is
-      an entry of the kernel
+      with respect to the image. Add d times the kernel instead, because the derivative
+      of an output with respect to a pixel is an entry of the kernel
     kernel-for-kernel: your code adds d times the kernel to the gradient with respect to
-      the kernel. The derivative of an output with respect to an entry of the kernel is
-      a pixel of the window
+      the kernel. Add d times the window instead, because the derivative of an output
+      with respect to an entry of the kernel is a pixel
     """
     seen = windows(image, kernel, stride)
     of_kernel = np.einsum("ijab,ij->ab", seen, d)

@@ -25,20 +25,20 @@ row.cases(
 def _(sigma, half):
     """not-normalised: your code does not normalise the kernel. Divide all entries by
       their sum, so that the blur does not change the brightness of the image
-    by-the-integral: your code divides the kernel by 2 pi sigma^2, the integral of the
-      Gaussian. The sum over the pixels differs from this integral, so divide by the sum
-      of the entries instead
+    by-the-integral: your code divides the kernel by 2 * pi * sigma^2, the integral of
+      the Gaussian. The sum over the pixels differs from this integral, so divide by the
+      sum of the entries instead
     rows-normalised: your code normalises each row of the kernel separately. All entries
       of the kernel together should sum to 1, so divide by the sum of the whole kernel
-    added: your code adds the two factors of each entry. The Gaussian in the plane is
-      the product of a factor along x and a factor along y
-    square-of-the-sum: your code squares x + y. The squared distance in the plane is x^2
-      + y^2
-    one-short: your kernel has 2 * half rows and columns, and its last distance from the
-      middle is half - 1. It should have 2 * half + 1 rows and columns, from -half to
-      half
-    from-minus-1-to-1: your code measures distances on a scale from -1 to 1. sigma is in
-      pixels, so count the distances from the middle in pixels, from -half to half
+    added: your code adds the Gaussians along x and along y. Multiply them instead,
+      because the Gaussian in the plane is their product
+    square-of-the-sum: your code uses (x + y)^2 as the squared distance from the middle.
+      Use x^2 + y^2 instead
+    one-short: your kernel has 2 * half rows and columns, because its coordinates end at
+      half - 1. Use the coordinates from -half to half, which give 2 * half + 1 rows and
+      columns
+    from-minus-1-to-1: your code uses coordinates from -1 to 1. Use coordinates from
+      -half to half instead, because `sigma` is in pixels
     """
     at = np.arange(-half, half + 1)
     d2 = at**2 + at[:, None] ** 2

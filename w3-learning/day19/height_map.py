@@ -51,12 +51,12 @@ def _(centres, radii, xs, ys):
       hits. A ray from above stops at the highest sphere, so compare the heights of all
       spheres
     nearest-centre: your code considers only the sphere whose centre is nearest to the
-      ray. The ray can hit another sphere higher up, or miss only the nearest one, so
-      compare the heights of all spheres
-    sum-of-distances: your code adds the distances along x and along y. The distance in
-      the plane is the hypotenuse, so add their squares
-    transposed: your image has one row for each entry of xs. Pixel [i, j] is at (xs[j],
-      ys[i]), so a row should belong to an entry of ys
+      ray. A larger sphere farther away can be higher at this pixel, so compare the
+      heights of all spheres
+    sum-of-distances: your code uses |dx| + |dy| as the horizontal distance. Use
+      sqrt(dx^2 + dy^2) instead, where dx and dy are the distances along x and y
+    transposed: your image has one row for each entry of xs. It should have one row for
+      each entry of ys, because pixel [i, j] is at (xs[j], ys[i])
     """
     dx = xs - centres[:, 0, None, None]
     dy = ys[:, None] - centres[:, 1, None, None]

@@ -38,18 +38,18 @@ def _(images, action, k):
       increases with y, so np.rot90 needs -k to rotate the images from x towards y
     mirrored: your code mirrors the images instead of rotating them. A mirrored image
       differs from a rotated image by a flip along one axis, so add this flip
-    mirrored 2: your code transposes the images, which mirrors them at a diagonal. A
+    mirrored 2: your code transposes the images, which mirrors them about a diagonal. A
       quarter turn is a transpose and a flip along one axis, so add this flip
     action-turned-once: your code rotates the action by one quarter turn for every k.
       Rotate the action by k quarter turns, like the images
     x-overwritten: your code computes the new y of the action from the new x. Use the
-      old x, which your code has overwritten
+      old x instead, and store it before you overwrite it
     sign-of-k-lost: your code rotates in the same direction for k and -k. For a negative
       k, rotate from y towards x
-    degrees: your code passes 90 k to cos and sin, which take radians. A quarter turn is
-      pi / 2
-    first-axes: your code rotates the axes 0 and 1 of the images. Axis 0 counts the
-      channels, so rotate the axes 1 and 2
+    degrees: your code passes 90 * k to cos and sin, which take radians. Use k * pi / 2
+      instead
+    first-axes: your code rotates the images in the plane of axes 0 and 1. Axis 0
+      contains the channels, so use axes 1 and 2 instead
     """
     right = np.rot90(images, -k, (1, 2))
     x, y = action

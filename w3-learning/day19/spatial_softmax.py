@@ -19,25 +19,25 @@ row = Row(
     held_out=[
         HeldOut(
             "overflows",
-            "Your function is right for small entries. For large entries, exp "
+            "Your function is correct for small entries. For large entries, exp "
             "overflows or all weights of a map are 0, so your result is NaN. Subtract "
-            "each map's own largest entry, and divide the difference by the "
-            "temperature: the weights do not change.",
+            "each map's own largest entry before you divide by the temperature, which "
+            "does not change the weights.",
             large_maps,
         ),
         HeldOut(
             "not-for-minus-infinity",
-            "Your function is right for finite entries, but not for entries of -inf. "
-            "Such an entry should have the weight 0. You can leave it as it is, "
-            "because exp(-inf) is 0.",
+            "Your function is correct for finite entries, but not for entries of "
+            "-inf. Such an entry should have the weight 0. Do not replace it, because "
+            "exp(-inf) is 0.",
             dark_maps,
         ),
         HeldOut(
             "imaginary-lost",
-            "Your function is right for real maps, but it loses the imaginary part of "
-            "complex maps. The lab tests your gradient with the complex step, so use "
-            "operations that keep the imaginary part: no float(), .real or np.maximum, "
-            "and no array of floats that you fill.",
+            "Your function is correct for real maps, but it loses the imaginary part "
+            "of complex maps. The lab tests your gradient with the complex step. Do "
+            "not use float(), .real or np.maximum, and do not write results into an "
+            "array of real numbers.",
             complex_maps,
         ),
     ],
@@ -71,12 +71,12 @@ def _(maps, xs, ys, temperature):
       everywhere
     x-y-swapped: your result is (y, x). Return x first, where pixel [i, j] is at x =
       xs[j] and y = ys[i]
-    over-the-maps: your weights of each pixel sum to 1 over the maps. The weights of
+    over-the-maps: your weights sum to 1 over the maps at each pixel. The weights of
       each map should sum to 1, so divide by the sum over the rows and columns
     indices: your code averages the indices of rows and columns. Average the
       coordinates xs and ys instead
-    softmax-of-sums: your code sums the map along one axis before exp. Apply exp to each
-      entry of the map, and sum the weights afterwards
+    softmax-of-sums: your code sums each map along one axis before it calls exp. Apply
+      exp to each entry of the map first, and sum the weights afterwards
     """
     z = maps / temperature
     most = z.max(axis=(1, 2), keepdims=True)

@@ -20,16 +20,16 @@ row = Row(
     held_out=[
         HeldOut(
             "overflows",
-            "Your function is right for small entries. For large entries, exp "
+            "Your function is correct for small entries. For large entries, exp "
             "overflows or all weights of a map are 0, so your result is NaN. Subtract "
-            "each map's own largest entry, and divide the difference by the "
-            "temperature, as in task 19.5.",
+            "each map's own largest entry before you divide by the temperature, as in "
+            "task 19.5.",
             lambda rng: with_d(rng, large_maps(rng)),
         ),
         HeldOut(
             "not-for-minus-infinity",
-            "Your function is right for finite entries, but not for entries of -inf. "
-            "Such an entry has the weight 0, so its gradient should be 0.",
+            "Your function is correct for finite entries, but not for entries of "
+            "-inf. Such an entry has the weight 0, so its gradient should be 0.",
             lambda rng: with_d(rng, dark_maps(rng)),
         ),
     ],
@@ -51,26 +51,29 @@ row.cases(
 
 @row.wrongs
 def _(maps, xs, ys, temperature, d):
-    """mean-not-taken-off: your code does not subtract the expected value of d_x x + d_y
-      y, where (d_x, d_y) is the map's row of d. Subtract this value, because a larger
-      map entry reduces all other weights
+    """mean-not-taken-off: your code does not subtract the expected value of d_x * x +
+      d_y * y, where (d_x, d_y) is the map's row of d. Subtract this value, because a
+      larger map entry reduces all other weights
     temperature-forgotten: your code does not divide the gradient by the temperature.
       The maps are divided by the temperature before the softmax, so the chain rule
       gives the factor 1 / temperature
-    p-1-minus-p: your code uses only the factor p (1 - p), the derivative of a weight p
-      with respect to its own softmax input. The other weights change too, so include
+    p-1-minus-p: your code uses only the factor p * (1 - p), the derivative of a weight
+      p with respect to its own softmax input. The other weights change too, so include
       their derivatives
-    plain-mean: your code subtracts the mean of d_x x + d_y y with equal weights, where
-      (d_x, d_y) is the map's row of d. Subtract the mean with the softmax weights, the
-      expected value
-    only-x-centred: your code subtracts the expected value of d_x x, but not of d_y y,
-      where (d_x, d_y) is the map's row of d. Subtract the expected value of their sum
-    only-y-centred: your code subtracts the expected value of d_y y, but not of d_x x,
-      where (d_x, d_y) is the map's row of d. Subtract the expected value of their sum
+    plain-mean: your code subtracts the mean of d_x * x + d_y * y with equal weights,
+      where (d_x, d_y) is the map's row of d. Subtract the expected value instead, which
+      is the mean with the softmax weights
+    only-x-centred: your code subtracts the expected value of d_x * x, but not of d_y *
+      y, where (d_x, d_y) is the map's row of d. Subtract the expected value of their
+      sum
+    only-y-centred: your code subtracts the expected value of d_y * y, but not of d_x *
+      x, where (d_x, d_y) is the map's row of d. Subtract the expected value of their
+      sum
     mean-without-d: your code subtracts the expected value of x + y. Subtract the
-      expected value of d_x x + d_y y, where (d_x, d_y) is the map's row of d
-    maps-together: your code subtracts the sum of the expected values of all maps. A
-      map's weights depend on this map alone, so subtract its own expected value
+      expected value of d_x * x + d_y * y instead, where (d_x, d_y) is the map's row of
+      d
+    maps-together: your code subtracts the sum of the expected values of all maps. The
+      weights of a map depend only on this map, so subtract only its own expected value
     """
     e = np.exp((maps - maps.max(axis=(1, 2), keepdims=True)) / temperature)
     p = e / e.sum(axis=(1, 2), keepdims=True)

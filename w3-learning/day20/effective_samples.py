@@ -30,9 +30,10 @@ row = Row(
     held_out=[
         HeldOut(
             "overflows",
-            "Your function is right for moderate weights and probabilities. If exp "
+            "Your function is correct for moderate weights and probabilities. If exp "
             "overflows, becomes 0 or is limited, the result is NaN or wrong. Subtract "
-            "the largest logp - old_logp before exp: the result does not change.",
+            "the largest logp - old_logp before you call exp, which does not change "
+            "the result.",
             far,
         ),
     ],

@@ -20,10 +20,10 @@ row = Row(
     held_out=[
         HeldOut(
             "underflow",
-            "Your function is right for an action near its mean, but not far from it. "
-            "The density of a far action is so small that exp gives 0, and the log of "
-            "0 is minus infinity. Take the logarithm of the formula on paper first, so "
-            "that your code does not need this exp.",
+            "Your function is correct for an action near its mean, but not for an "
+            "action far from it. The density of a far action is so small that exp "
+            "returns 0, whose logarithm is minus infinity. Take the logarithm of the "
+            "formula on paper first, so that your code does not need this exp.",
             far,
         ),
     ],
@@ -59,7 +59,7 @@ def _(action, mean, log_std):
     not-squared: your code uses |z| instead of z^2, where z = (action - mean) / std. The
       exponent of a Gaussian is -z^2 / 2
     prob: your function returns the density. Return the logarithm of the density instead
-    constant-once: your code includes the term -ln(2 pi) / 2 only once. Add this term
+    constant-once: your code includes the term -ln(2 * pi) / 2 only once. Add this term
       for each of the m entries of an action
     densities-summed: your code sums the densities of the entries before it takes the
       logarithm. Multiply these densities instead, because the entries are independent

@@ -46,8 +46,8 @@ def _(K, std, A, B, Q, R, S, T):
       tr(R) in each of the T steps
     transposed: your code updates X = E[x x^T] to M^T X M, where M = A - B K. The mean
       of the next state is M x, so use M X M^T instead
-    noise-shared: your code moves the state as if all inputs had the same noise. The
-      entries of z are independent, so add std^2 B B^T to E[x x^T]
+    noise-shared: in E[x x^T], your code uses the same noise for all inputs. The entries
+      of z are independent, so add std^2 B B^T to E[x x^T]
     last-state-added: your code adds the cost x^T Q x of the state after the last step.
       Add only the costs of the T states before the steps
     traces-multiplied: your code multiplies the trace of Q + K^T R K by the trace of E[x

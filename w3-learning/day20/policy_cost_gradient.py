@@ -56,19 +56,18 @@ def _(K, std, A, B, Q, R, S, T):
       after the step
     noise-forgotten: your code omits the noise in E[x x^T]. Add std^2 B B^T to E[x x^T]
       in each step, as in `policy_cost`
-    start-only: your code uses S in every step. S is E[x x^T] at the start only, so
-      compute E[x x^T] before each step
-    noise-shared: your code moves the state as if all inputs had the same noise. The
-      entries of z are independent, so add std^2 B B^T to E[x x^T]
-    X-one-late: your code uses E[x x^T] after each step. Use the matrix before the step,
-      because the input of a step is -K x with the state before it
-    orders-mixed: your code pairs the first E[x x^T] with the last cost-to-go matrix. X
-      is computed from the first step to the last and P from the last to the first, so
-      store one of them
+    start-only: your code uses S as E[x x^T] in every step. S is this matrix only at the
+      start, so compute E[x x^T] before each step
+    noise-shared: in E[x x^T], your code uses the same noise for all inputs. The entries
+      of z are independent, so add std^2 B B^T to E[x x^T]
+    X-one-late: your code uses E[x x^T] after each step. Use the matrix before the step
+      instead, because the input of a step is -K x with the state before it
+    orders-mixed: your code pairs the first E[x x^T] with the last cost-to-go matrix P.
+      E[x x^T] is computed forwards and P backwards, so store one of the two sequences
     sign-of-B: your code adds B^T P M to R K. Subtract it, because M = A - B K contains
       -B K
-    first-step-only: your code returns the contribution of the first step. The gain acts
-      in each of the T steps, so add the contributions of all steps
+    first-step-only: your code returns only the contribution of the first step. The gain
+      acts in each of the T steps, so add the contributions of all steps
     P-transposed: your code updates P with M P M^T, where M = A - B K. The cost of the
       next state M x is x^T M^T P M x, so use M^T P M instead
     cost-after-the-last-step: your cost-to-go matrix P is Q after the last step. Begin

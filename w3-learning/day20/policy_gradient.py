@@ -26,8 +26,8 @@ row.cases(
 
 @row.wrongs
 def _(score, advantage):
-    """mean-over-steps: your code divides the estimate by the number of steps as well.
-      Omit this division, because the gradient of the return is a sum over the steps
+    """mean-over-steps: your code also divides the estimate by the number of steps. Omit
+      this division, because the gradient of the return is a sum over the steps
     summed-over-episodes: your code sums over the episodes. Divide the sum by the number
       of episodes, because the estimate is a mean over the episodes
     sums-multiplied: your code multiplies the sum of the scores by the sum of the
@@ -48,8 +48,8 @@ def _(score, advantage):
     pairs-mixed: your code pairs the scores with the advantages of other steps or
       episodes. Both arrays have the steps on the first axis and the episodes on the
       second axis
-    normalised-inside: your code normalises the advantages. Use the advantages without
-      this step, because the caller chooses the baseline and the scale
+    normalised-inside: your code normalises the advantages. Use the advantages as they
+      are, because the caller chooses the baseline and the scale
     baseline-inside 2: your code subtracts the mean over the episodes from the
       advantages of each step. Use the advantages without this subtraction, because the
       caller chooses the baseline

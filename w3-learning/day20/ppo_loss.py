@@ -36,16 +36,16 @@ row = Row(
     held_out=[
         HeldOut(
             "limited-too-early",
-            "Your function is right for moderate ratios. A large ratio with a negative "
-            "advantage is not clipped, so its term grows with the ratio. Your result "
-            "does not grow in this way. If you limit logp - old_logp, do so only where "
-            "exp would overflow, for example at 600.",
+            "Your function is correct for moderate ratios. A large ratio with a "
+            "negative advantage is not clipped, so its term grows with the ratio. Your "
+            "result does not grow in this way. If you limit logp - old_logp, do so "
+            "only where exp would overflow, for example at 600.",
             large,
             relative=True,
         ),
         HeldOut(
             "overflows",
-            "Your function is right for moderate ratios. For a very large ratio, exp "
+            "Your function is correct for moderate ratios. For a very large ratio, exp "
             "overflows to infinity, and infinity times an advantage of 0 is NaN. Limit "
             "logp - old_logp before exp, for example to 600.",
             far,
@@ -105,11 +105,12 @@ def _(logp, old_logp, advantage, clip):
     always-clipped: your loss uses only the clipped ratio. Use the minimum of the
       clipped and the unclipped term, so that a ratio that has moved in the wrong
       direction is still corrected
-    gradient-through-the-clip: your loss is right, but your gradient ignores the
+    gradient-through-the-clip: your loss is correct, but your gradient ignores the
       clipping. Set the gradient to 0 where the clipped term is smaller, because the
       loss does not depend on logp at these entries
-    gradient-clipped: your gradient is 0 for all ratios outside the range. Set the
-      gradient to 0 only where the clipped term is smaller than the unclipped term
+    gradient-clipped: your gradient is 0 for all ratios outside the range from 1 - clip
+      to 1 + clip. Set the gradient to 0 only where the clipped term is smaller than the
+      unclipped term
     max-for-min: your code uses the maximum of the clipped and the unclipped term. Use
       the minimum instead, so that a ratio that has already moved too far gives no
       further improvement
@@ -123,17 +124,17 @@ def _(logp, old_logp, advantage, clip):
       density
     clip-above-only: your code clips the ratio at 1 + clip only. Clip the ratio at 1 -
       clip as well, because a negative advantage makes the ratio smaller
-    minimum-of-ratios: your code takes the minimum before it multiplies by the
-      advantage. Multiply both ratios by the advantage first, because a negative
+    minimum-of-ratios: your code takes the minimum of both ratios before it multiplies
+      by the advantage. Multiply both ratios by the advantage first, because a negative
       advantage reverses their order
-    minimum-of-ratios 2: your loss takes the minimum before it multiplies by the
-      advantage. Multiply both ratios by the advantage first, because a negative
-      advantage reverses their order
+    minimum-of-ratios 2: in the loss, your code takes the minimum of both ratios before
+      it multiplies by the advantage. Multiply both ratios by the advantage first,
+      because a negative advantage reverses their order
     minimum-for-a-negative-advantage: your code limits the ratio to at most 1 - clip
       where the advantage is negative. Use the maximum of the ratio and 1 - clip there,
       because a negative factor reverses the order of both terms
-    product-clipped: your code limits the product of ratio and advantage to the range
-      from 1 - clip to 1 + clip. Limit the ratio first, and then multiply by the
+    product-clipped: your code limits the product of the ratio and the advantage to the
+      range from 1 - clip to 1 + clip. Limit the ratio first, and then multiply by the
       advantage
     logs-clipped: your code limits logp - old_logp to the range from -clip to clip.
       Limit the ratio exp(logp - old_logp) to the range from 1 - clip to 1 + clip

@@ -16,7 +16,7 @@ row = Row(
     held_out=[
         HeldOut(
             "gamma-of-0",
-            "Your function is right for gamma above 0. For a gamma of 0, the return "
+            "Your function is correct for gamma above 0. For a gamma of 0, the return "
             "of a step is its own reward. Does your code divide by a power of gamma?",
             none_later,
         ),
@@ -59,8 +59,8 @@ def powers(reward, gamma, last, first=0):
 @row.wrongs
 def _(reward, gamma, last):
     """from-the-start: your code sums the rewards from the first step up to each step.
-      The return of a step should contain the reward of this step and the later rewards
-      instead
+      The return of a step should contain only the reward of this step and the later
+      rewards
     from-the-start 2: your code runs from the first step to the last. The return of a
       step contains the return of the next step, so begin at the last step
     from-the-start 3: your code sums the reward of each step and the earlier rewards.

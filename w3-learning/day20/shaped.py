@@ -24,7 +24,7 @@ row.cases(
 def _(reward, potential, gamma):
     """gamma-forgotten: your code adds the difference of the potentials without gamma.
       Multiply the potential after the step by gamma, so that the discounted return
-      depends on both end potentials only
+      depends only on the potentials at both ends
     sign: your code subtracts the shaping term. Add this term instead, so that moving to
       a higher potential increases the reward
     gamma-on-the-wrong-one: your code multiplies the potential before the step by gamma.
@@ -34,7 +34,7 @@ def _(reward, potential, gamma):
       potential before the step as well, so that intermediate potentials cancel in the
       discounted return
     discounted-twice: your code multiplies the added reward by gamma^t. Omit this
-      factor, because the return discounts each reward already
+      factor, because the return already discounts each reward
     gamma-on-both: your code multiplies both potentials by gamma. Multiply only the
       potential after the step by gamma, because only this potential is one step later
     """
