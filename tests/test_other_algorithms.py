@@ -60,7 +60,7 @@ def test_a_term_that_only_another_right_solution_has_is_not_called_missing(stude
     The student's function has as many divisions.
     """
     says = told_of_a_file(16, "16.2", "masked_l1", student, GRADIENT)
-    assert says.startswith("The loss is right. The gradient is wrong in")
+    assert says.startswith("The loss is correct. The gradient is wrong in")
     assert "missing" not in says
 
 

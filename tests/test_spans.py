@@ -67,7 +67,10 @@ def test_a_guard_a_cap_and_a_limit_are_found_and_shown(wrong, call, which):
 @pytest.mark.parametrize(
     ("wrong", "how"),
     [
-        (lambda e, ed, kp, kd: kp * e + kd * ed + (np.ndim(kp) or 1 // 0) - 1, "stops"),
+        (
+            lambda e, ed, kp, kd: kp * e + kd * ed + (np.ndim(kp) or 1 // 0) - 1,
+            "stops with an error",
+        ),
         (lambda e, ed, kp, kd: kp * e + kd * ed + (np.ndim(kp) == 0), "is wrong"),
     ],
 )

@@ -84,7 +84,7 @@ def test_a_result_that_is_larger_by_orders_of_magnitude_diverges():
     T = np.array([[1.0, 2.0], [3.0, 4.0]])
     kind = Vector((2,), "m")
     assert kind.largest_error(T * [1.0, 3.0e13], T) == (
-        "The result diverges: it is over 1e13 times as large as expected."
+        "The result is over 1e13 times as large as expected, so it diverges."
     )
     assert kind.largest_error(T * [1.0, 1.0e6], T).startswith("Largest error: ")
 

@@ -195,7 +195,7 @@ class Kind:
         if size < DIVERGES:
             return ""
         times = f"1e{np.floor(np.log10(size)):.0f}"
-        return f"The result diverges: it is over {times} times as large as expected."
+        return f"The result is over {times} times as large as expected, so it diverges."
 
     def largest_error(self, S: Array, T: Array) -> str:
         """Return how far S is from T at worst as a sentence: "Largest error: 2 m.".

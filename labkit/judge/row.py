@@ -166,7 +166,7 @@ class Row:
     ) -> None:
         """Take cases of calls, so that a student is told which of them are right.
 
-        The cases of one list are told together: "The result is right for parallel
+        The cases of one list are told together: "The result is correct for parallel
         segments. It is wrong for segments that cross." A row may have several lists;
         the one that leaves the fewest calls open is told. Each case needs inputs of
         `inputs` or of `rare`.

@@ -145,7 +145,7 @@ def is_in_its_form(m: Any, mutant: Mutant) -> bool:
     The lab's form is the one that the guide teaches; another right function may have
     steps that the student's has not.
     """
-    if mutant.body.own or own_line(m, mutant):
+    if mutant.body.own or _in_own_words(m, mutant):
         return True
     own = _own_function(m, mutant)
     others = [body.function for body in m.bodies]
@@ -155,7 +155,7 @@ def is_in_its_form(m: Any, mutant: Mutant) -> bool:
 def tells(mutant: Mutant) -> bool:
     """Return whether a mutant's kind says enough without a place.
 
-    "A division is missing" does, and "a part of the formula is missing" does not.
+    "Your code omits a division" does, and "omits a part of the formula" does not.
     """
     return mutant.kind in TELLING and what(mutant) != SAYS["left-out"]
 
