@@ -154,8 +154,8 @@ class TestPlans:
 
     @pytest.mark.kit
     def test_that_are_late_need_it(self):
-        late = pushing.attempt(FNS, 1, late=3)
-        blind = pushing.attempt(FNS, 1, late=3, ahead=False)
+        late = pushing.attempt(FNS, 2, late=3)
+        blind = pushing.attempt(FNS, 2, late=3, ahead=False)
         assert late.home
         assert not blind.home
 

@@ -14,7 +14,7 @@ from robo47.checks import Array
 from robo47.panda import READY_Q
 
 HOME = (0.5, 0.0)  # m, of home in the world
-TRAY = 0.2  # m, height of the tray's top
+TRAY = 0.2  # m, height of the mark's top
 PUCK_HALF = 0.015  # m, half the height of the puck
 HEIGHT = TRAY + PUCK_HALF + 0.001  # m, of the plane; the puck floats over the glass
 STICK = 0.08  # m, from between the fingers to the centre of the sphere
@@ -22,7 +22,7 @@ STICK_RADIUS = 0.004  # m
 TRAY_HALF = (0.3, 0.3, 0.005)  # m
 EYE = (*HOME, 0.03)  # m
 EYE_HALF = (0.05, 0.05, 0.02)  # m
-MARK_HALF = (push.PUCK, 0.0002, 0.0)  # m, radius and half the height
+MARK_HALF = (push.PUCK, 0.001, 0.0)  # m, radius and half the height
 CONTACT = 0.004  # s, time constant of the contact: two time steps
 GLASS = (0.55, 0.75, 0.85, 0.25)
 ORANGE = (0.90, 0.62, 0.0, 1.0)
@@ -127,11 +127,12 @@ def _add_puck(spec: mujoco.MjSpec, mass: float, damping: float) -> None:
 def _add_looks(spec: mujoco.MjSpec) -> None:
     """Add tray, eye and mark, which nothing touches."""
     box, disc = mujoco.mjtGeom.mjGEOM_BOX, mujoco.mjtGeom.mjGEOM_CYLINDER
-    middle = (*HOME, TRAY - TRAY_HALF[2])
+    floor = TRAY - 2.0 * MARK_HALF[1]  # below the mark, so that both are seen
+    middle = (*HOME, floor - TRAY_HALF[2])
     for name, kind, pos, half, colour in (
         ("tray", box, middle, TRAY_HALF, GLASS),
         ("eye", box, EYE, EYE_HALF, DARK),
-        ("mark", disc, (*HOME, TRAY), MARK_HALF, GREEN),
+        ("mark", disc, (*HOME, TRAY - MARK_HALF[1]), MARK_HALF, GREEN),
     ):
         geom = spec.worldbody.add_geom(name=name, type=kind, pos=pos, size=half)
         geom.contype = geom.conaffinity = 0

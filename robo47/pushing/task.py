@@ -20,7 +20,8 @@ SPEED = 0.4  # of the approach, as a fraction of the joints' limits
 RATE = 100.0  # Hz, of the controller
 
 FASTEST = 0.2  # m/s, of the set point
-LOW, HIGH = np.array([-0.27, -0.27]), np.array([0.27, 0.27])  # m, of the set point
+# m, of the set point; beyond this x the elbow is straight, and the arm stops following
+LOW, HIGH = np.array([-0.27, -0.27]), np.array([0.24, 0.27])
 ROUND_SECONDS = 2.5  # s, in which the sphere goes around the puck
 PARTS = 5  # of a tick, when it looks ahead
 HAND_TICKS = 3  # in which a hand moves the puck, at a right angle to its way home
