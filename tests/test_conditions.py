@@ -89,7 +89,11 @@ def printed(row, function):
 
     by_phrase = {says: of for some in ask.cases for says, of in some.items()}
     says = in_cases(asked, answers)
-    told = {RIGHT: "is right for ", WRONG: "It is wrong for ", "only": "wrong only for"}
+    told = {
+        RIGHT: "is correct for ",
+        WRONG: "It is wrong for ",
+        "only": "wrong only for",
+    }
     for status, word in told.items():
         _, _, rest = says.partition(word)
         for phrase in phrases_in(re.split(r"\.(?:\s|$)", rest)[0], by_phrase):

@@ -108,9 +108,8 @@ def test_every_function_with_one_right_answer_is_asked_at_edges(day):
             assert row.ask.edges, name
             fresh = round_of(row.ask).fresh
             assert len(fresh) >= len(row.ask.edges) + 2
-            assert all(
-                np.isfinite(part).all() for part in right_answers(row.ask, fresh)
-            )
+            found = right_answers(row.ask, fresh)  # a limit may be infinite
+            assert not any(np.isnan(part).any() for part in found)
 
 
 def test_an_edge_with_two_right_answers_is_not_asked():

@@ -52,7 +52,7 @@ def clamp_speed(v: np.ndarray, limit: float) -> np.ndarray:
     speed = np.linalg.norm(v)  # norm of the velocity
     if speed <= limit:
         return v  # slow enough
-    return v * (limit / speed)  # as fast as allowed, in the same direction
+    return v * (limit / speed)  # the same direction, at the limit
     # endregion 21.1
 
 
@@ -85,7 +85,7 @@ def plan_entry(plan: np.ndarray, drawn: int, now: int) -> np.ndarray:
     """
     # region 21.3
     row = min(now - drawn, len(plan) - 1)  # the last row if the plan has run out
-    return plan[row]
+    return plan[row]  # its velocity
     # endregion 21.3
 
 
@@ -102,12 +102,12 @@ def push_ahead(
     push_ahead([0, 0, 0.06, 0], [[0.1, 0]], 0.1, 5, 0.065) -> [0.01, 0, 0.075, 0]
     """
     # region 21.4
-    pusher, puck = obs[:2], obs[2:]
+    pusher, puck = obs[:2], obs[2:]  # the positions of both
     for action in actions:
         for _ in range(steps):
             pusher = pusher + action * dt / steps  # the pusher moves
             apart = puck - pusher  # from the pusher to the puck
-            distance = np.linalg.norm(apart)  # of both centres
+            distance = np.linalg.norm(apart)  # distance of both centres
             if distance < reach:
                 puck = pusher + apart * reach / distance  # the puck is moved
     return np.concatenate([pusher, puck])  # the observation at the end
@@ -125,7 +125,7 @@ def conformal_limit(scores: np.ndarray, share: float) -> float:
     # region 21.5
     n = len(scores)  # number of scores
     k = int(np.ceil((n + 1) * (1 - share)))  # rank of the limit, from 1
-    return np.sort(scores)[k - 1] if k <= n else np.inf
+    return np.sort(scores)[k - 1] if k <= n else np.inf  # the k-th smallest score
     # endregion 21.5
 
 
@@ -142,7 +142,7 @@ def alarm_at(score: np.ndarray, limit: float, ticks: int) -> int:
         above = 0 if score[tick] <= limit else above + 1  # a NaN is not <= limit
         if above == ticks:
             return tick  # long enough in a row
-    return -1
+    return -1  # no alarm
     # endregion 21.6
 
 
