@@ -23,9 +23,9 @@ def _half_turns(rng):
 
 HALF_TURN = HeldOut(
     "wrong-at-pi",
-    "Your function is correct for angles below pi, but not for exactly pi. At pi, "
-    "R - R^T is 0 and determines neither the axis nor its sign. The docstring defines "
-    "the sign.",
+    "Your function is correct for angles clearly below pi, but not for exactly pi. At "
+    "pi, R - R^T is 0 and determines neither the axis nor its sign. The docstring "
+    "defines the sign.",
     _half_turns,
 )
 row = Row(
