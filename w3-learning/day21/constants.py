@@ -41,7 +41,7 @@ def rotation(speed=0.3, limit=0.2):
 @numbers.add(
     "error of the contact angle", "{:.2f} mrad",
     parts=times(0.5, "the error is proportional to the length of a part", within=0.03),
-    path=between(5.0, 6.5, "parts twice as long, of an angle that grows faster"),
+    path=between(5.0, 6.5, "parts twice as long, and the angle grows faster"),
     touch=between(0.15, 0.3, "the angle changes more slowly: its rate is sin(phi) / R"),
 )  # fmt: skip
 def contact(parts=LAB.PARTS, path=0.04, touch=LAB.TOUCH):
@@ -56,8 +56,8 @@ def contact(parts=LAB.PARTS, path=0.04, touch=LAB.TOUCH):
 @numbers.add(
     "largest error of push_ahead after 0.3 s", "{:.1f} mm",
     step=between(2.0, 3.0, "a contact is noticed later, and is softer"),
-    mass=between(0.8, 1.25, "a push that goes on hides the mass"),
-    damping=between(0.8, 1.4, "a push that goes on hides the damping"),
+    mass=between(0.8, 1.25, "the mass matters little during a push"),
+    damping=between(0.8, 1.4, "the damping matters little during a push"),
     parts=same("it occurs at the beginning of a contact"),
 )  # fmt: skip
 def predicted(step=push.STEP, mass=push.MASS, damping=push.DAMPING, parts=LAB.PARTS):

@@ -118,8 +118,9 @@ def conformal_limit(scores: np.ndarray, share: float) -> float:
     """Return the limit that a new score exceeds with a probability of at most share.
 
     scores (n,) were computed from data that the policy was not trained on; n may be 0.
-    The limit is the k-th smallest score, k = ceil((n + 1) (1 - share)). If k is above
-    n, the limit is infinity. share is at least 0 and below 1.
+    They and the new score are exchangeable. The limit is the smallest of the scores for
+    which this holds, or infinity if it holds for none of them. share is at least 0 and
+    below 1.
     conformal_limit([3, 1, 2], 0.5) -> 2
     """
     # region 21.5
