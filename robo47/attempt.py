@@ -42,11 +42,14 @@ class Summary(NamedTuple):
 
 
 class Block(NamedTuple):
-    """A box beside the robot."""
+    """A box, or another solid, beside the robot."""
 
     T_world_box: Array  # the pose of its centre, (4, 4)
     half: tuple[float, float, float]  # half its edges, metres
     colour: tuple[float, float, float, float]  # red, green, blue, opacity, 0 to 1
+    # "box", or "sphere", "cylinder" or "capsule"; the numbers of `half` are then those
+    # of MuJoCo's geom of this type, as (radius, half of the length, unused).
+    kind: str = "box"
 
 
 class Film(NamedTuple):

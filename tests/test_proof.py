@@ -182,7 +182,7 @@ def test_the_card_to_share_has_its_size_and_its_words_with_a_picture_or_without(
     assert not (np.abs(drawn - card.GOOD).max(axis=2) < 10).any()
 
 
-@pytest.mark.parametrize("week", [1, 2])
+@pytest.mark.parametrize("week", [1, 2, 3])
 def test_the_page_the_card_and_the_capstone_count_a_perfect_students_functions_alike(
     monkeypatch, capsys, week
 ):

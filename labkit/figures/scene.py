@@ -80,11 +80,12 @@ class Ghost:
 
 @dataclass(frozen=True)
 class Box:
-    """A box beside the robot, such as a table."""
+    """A box beside the robot, such as a table, or another solid."""
 
     T_world_box: Array  # the pose of its centre, (4, 4)
     half: tuple[float, float, float]  # half its edges, metres
     colour: tuple[float, float, float, float]  # red, green, blue, opacity, 0 to 1
+    kind: str = "box"  # or "sphere", "cylinder", "capsule", with MuJoCo's sizes
 
 
 @dataclass(frozen=True)

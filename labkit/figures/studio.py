@@ -150,15 +150,15 @@ def add_ghost(scene: mujoco.MjvScene, model: mujoco.MjModel, ghost: Ghost) -> No
 
 
 def add_box(scene: mujoco.MjvScene, box: Box) -> None:
-    """Add a box to what is drawn."""
+    """Add a box, or another solid, to what is drawn."""
     R = box.T_world_box[:3, :3]
     t = box.T_world_box[:3, 3]
     colour = np.array(box.colour, dtype=np.float32)
-    kind = mujoco.mjtGeom.mjGEOM_BOX
+    kind = getattr(mujoco.mjtGeom, f"mjGEOM_{box.kind.upper()}")
     shape = add_shape(scene, kind, np.array(box.half), t, R, colour)
     shape.objtype = mujoco.mjtObj.mjOBJ_UNKNOWN
     shape.objid = -1
-    shape.dataid, shape.transparent = -1, 0
+    shape.dataid, shape.transparent = -1, int(colour[3] < 1.0)
 
 
 def add_shape(

@@ -98,7 +98,7 @@ MODULES = (
     ("Velocities and forces", ("jacobian", "fast.jacobians", "fast.ik", "dynamics")),
     ("Control and motion", ("control", "task_space", "trajectory")),
     ("The robot and its world", ("panda", "scenes", "simulate", "verify", "arm")),
-    ("The weeks' ends", ("capstone", "delivery")),
+    ("The weeks' ends", ("capstone", "delivery", "pushing")),
 )
 
 

@@ -55,8 +55,9 @@ def phase_lines(phases: Sequence[tuple[str, float]], seconds: float) -> list[str
         phases: (name, when it began in seconds), in order.
         seconds: when the last one ended.
     """
+    width = max(9, *(len(name) for name, _ in phases))
     return [
-        f"  {begins:5.2f} s  {name:9} {ends - begins:5.2f} s"
+        f"  {begins:5.2f} s  {name:{width}} {ends - begins:5.2f} s"
         for (name, begins), (_, ends) in pairwise([*phases, ("", seconds)])
     ]
 

@@ -1,0 +1,117 @@
+"""21.6 `alarm_at(score, limit, ticks)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Index, Row
+
+row = Row(Index())
+
+
+@row.inputs
+def _(rng):
+    yield np.array([0.1, 0.9, 0.2, 0.9, 0.9, 0.9]), 0.5, 3
+    yield np.array([0.9, 0.9, 0.1, 0.9]), 0.5, 2
+    yield np.array([0.9, 0.9, 0.1, 0.9]), 0.5, 3  # never
+    yield np.array([0.1, 0.5, 0.5, 0.6]), 0.5, 1  # just at the limit
+    yield np.array([0.7, np.nan, 0.7, 0.1, 0.2]), 0.5, 3
+    yield np.array([0.1, 0.2, np.nan, np.nan]), 0.5, 2
+    yield np.array([np.nan, 0.2, np.nan]), 0.5, 2  # never
+    yield np.array([0.1, 3.0, 9.0]), np.inf, 1  # too few scores for a limit
+    yield np.array([0.7]), 0.5, 1
+    yield np.array([0.7]), 0.5, 2
+    yield np.array([-0.9, -0.2, 0.1, -0.7, -0.2, -0.3]), -0.5, 2
+    for T in (6, 9, 12, 12, 20, 20):
+        yield some(rng, T)
+
+
+def some(rng, T):
+    """Return scores of which two thirds are above the limit, some of them NaN."""
+    score = rng.numbers(0, 1, T)
+    score[rng.random(T) < 0.12] = np.nan
+    return score, float(rng.numbers(0.3, 0.6)), int(rng.integers(1, 5))
+
+
+row.cases(
+    scores_without_NaN=lambda score, limit, ticks: not np.isnan(score).any(),
+    scores_with_NaN=lambda score, limit, ticks: np.isnan(score).any(),
+)
+
+
+def at(above, ticks):
+    """Return the first tick at which so many ticks in a row were above, or -1."""
+    count = 0
+    for tick, high in enumerate(above):
+        count = count + 1 if high else 0
+        if count >= ticks:
+            return tick
+    return -1
+
+
+@row.wrongs
+def _(score, limit, ticks):
+    """not-in-a-row: your code counts all ticks above the limit. Set the counter to 0 at
+      each tick that is not above the limit
+    first-above: your function returns the first tick above the limit. Wait until
+      `ticks` of them are in a row, so that one noisy tick raises no alarm
+    start-of-the-row: your function returns the first of the ticks in a row. Return the
+      last of them, because the alarm is raised only then
+    nan-is-fine: your code treats NaN as not above the limit. Treat NaN as above the
+      limit, so that a lost measurement raises an alarm
+    nan-is-skipped: your code ignores ticks with NaN. Treat NaN as above the limit, so
+      that a lost measurement raises an alarm
+    at-the-limit: your code treats a score that is equal to the limit as above it. A
+      score is above the limit only if it is larger
+    one-more: your code waits for one tick more. Return the tick at which `ticks` scores
+      in a row were above the limit
+    end-if-none: your function returns the number of ticks if there is no alarm. Return
+      -1 in this case
+    last-alarm: your function returns the last tick with an alarm. Return the first one
+    """
+    above = ~(score <= limit)
+    right = at(above, ticks)
+    row_of = [at(above[: i + 1][-ticks:], ticks) >= 0 for i in range(len(score))]
+    count = np.cumsum(above)
+    kept = np.flatnonzero(~np.isnan(score))
+    skipped = at(score[kept] > limit, ticks)
+    return {
+        "not-in-a-row": int(np.argmax(count >= ticks)) if count[-1] >= ticks else -1,
+        "first-above": at(above, 1),
+        "start-of-the-row": right - ticks + 1 if right >= 0 else -1,
+        "nan-is-fine": at(score > limit, ticks),
+        "nan-is-skipped": int(kept[skipped]) if skipped >= 0 else -1,
+        "at-the-limit": at(~(score < limit), ticks),
+        "one-more": at(above, ticks + 1),
+        "end-if-none": right if right >= 0 else len(score),
+        "last-alarm": max(np.flatnonzero(row_of), default=-1),
+    }
+
+
+@row.right  # By windows.
+def _(score, limit, ticks):
+    fine = score <= limit
+    for end in range(ticks, len(score) + 1):
+        if not fine[end - ticks : end].any():
+            return end - 1
+    return -1
+
+
+@row.right  # By the last tick that was fine.
+def _(score, limit, ticks):
+    last = -1  # the last tick that was fine
+    for tick, value in enumerate(score):
+        if np.isnan(value) or value > limit:
+            if tick - last >= ticks:
+                return tick
+        else:
+            last = tick
+    return -1
+
+
+@row.spans
+def _(rng):
+    yield np.append(np.zeros(100), np.ones(12)), 0.5, 10
+    yield 1e6 * rng.numbers(0, 1, 30), 2e5, 3
+    yield 1e-3 * rng.numbers(0, 1, 30), 2e-4, 3
+
+
+row.at_least_0(ticks="a number of ticks", answer="a tick; -1 is another line")

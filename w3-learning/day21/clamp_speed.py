@@ -1,0 +1,94 @@
+"""21.1 `clamp_speed(v, limit)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import HeldOut, Row, Vector
+
+
+def at_rest(rng):
+    """Yield velocities of 0, of which a direction cannot be computed."""
+    yield np.zeros(2), 0.25
+    yield np.zeros(3), 0.0
+
+
+row = Row(
+    Vector((None,), "m/s"),
+    copies=False,
+    held_out=[
+        HeldOut(
+            "at-rest",
+            "Your function is right for a velocity that is not 0. For the velocity 0 "
+            "it divides by 0. Divide by the speed only if the speed is above the "
+            "limit.",
+            at_rest,
+        ),
+    ],
+)
+
+
+@row.inputs
+def _(rng):
+    yield np.array([0.3, 0.4]), 0.25
+    yield np.array([0.03, 0.04]), 0.25  # slow enough
+    yield np.array([-0.3, 0.0]), 0.2
+    yield np.array([0.2, 0.0]), 0.2  # just at the limit
+    yield np.array([0.1, 0.2]), 0.0
+    for n in (1, 2, 2, 3, 3, 7):
+        yield rng.numbers(-0.5, 0.5, n), float(rng.numbers(0.05, 0.6))
+
+
+row.cases(
+    velocities_that_are_too_fast=lambda v, limit: np.linalg.norm(v) > limit,
+    velocities_that_are_slow_enough=lambda v, limit: np.linalg.norm(v) <= limit,
+)
+
+
+@row.wrongs
+def _(v, limit):
+    """per-axis: your code clamps each entry by itself, which changes the direction.
+      Multiply all entries by the same factor
+    always-full: your code also speeds up a velocity that is slow enough. Return a
+      velocity whose norm is at most the limit as it is
+    stops: your function returns 0 for a velocity that is too fast. Return the velocity
+      with the same direction and the norm `limit` instead
+    largest: your code compares the largest entry with the limit. Compare the norm of
+      the velocity with the limit, because the speed is the norm
+    city-block: your code compares the sum of the absolute entries with the limit.
+      Compare the Euclidean norm of the velocity with the limit
+    not-reduced: your code multiplies a velocity that is too fast by the limit. Multiply
+      it by limit / speed, so that its norm becomes the limit
+    """
+    speed = np.linalg.norm(v)
+    entry = np.max(np.abs(v))
+    total = np.sum(np.abs(v))
+    return {
+        "per-axis": np.clip(v, -limit, limit),
+        "always-full": v * limit / speed,
+        "stops": v * (speed <= limit),
+        "largest": v * min(1, limit / entry),
+        "city-block": v * min(1, limit / total),
+        "not-reduced": v if speed <= limit else v * limit,
+    }
+
+
+@row.right  # By a maximum with 1.
+def _(v, limit):
+    if limit == 0:
+        return 0 * v
+    return v / max(1, np.sqrt(v @ v) / limit)
+
+
+@row.right  # Unit vector times the smaller speed.
+def _(v, limit):
+    speed = np.sqrt(np.sum(v**2))
+    direction = v / speed if speed > 0 else v
+    return min(speed, limit) * direction
+
+
+@row.spans
+def _(rng):
+    for size in (1e-4, 1e4):
+        yield size * rng.numbers(-1, 1, 2), size * 0.3
+
+
+row.at_least_0(limit="a speed")

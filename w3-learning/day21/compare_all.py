@@ -1,0 +1,155 @@
+"""21.8 `compare_all(success)`: its questions and its mistakes."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from labkit.judge import Mask, Row, Vector
+from robo47.evaluation import holm, sign_test
+
+row = Row(
+    (
+        Vector((None,), called="the array of p-values"),
+        Mask((None,), called="the mask of differences"),
+    )
+)
+
+
+def policies(rng, n, *better):
+    """Return successes of a first policy, and of others that it beats by some starts.
+
+    Each of `better` has the wins and losses of the first policy against another one.
+    """
+    first = np.arange(n) < n // 2
+    some = [first]
+    for win, lose in better:
+        other = first.copy()
+        other[:win] = False
+        other[n - lose :] = True
+        some.append(other)
+    return np.array(some)[:, rng.permutation(n)]
+
+
+@row.inputs
+def _(rng):
+    yield (policies(rng, 20, (9, 0)),)
+    yield (policies(rng, 40, (14, 2), (9, 3), (0, 0)),)
+    yield (policies(rng, 40, (10, 2), (10, 2), (11, 2)),)  # .0386: Holm finds none
+    yield (policies(rng, 30, (7, 0), (6, 0)),)  # .0156 and .0313
+    yield (policies(rng, 30, (6, 0), (6, 0)),)
+    yield (policies(rng, 30, (0, 8), (3, 3)),)
+    yield (policies(rng, 30, (1, 9), (0, 6), (5, 1)),)
+    yield (policies(rng, 40, (12, 1), (10, 2), (9, 2), (1, 7)),)
+    yield (rng.random((2, 9)) < 0.5,)
+    yield (policies(rng, 40, (9, 0), (7, 0), (6, 0)),)  # one limit for all finds two
+    yield (policies(rng, 40, (9, 1), (3, 0)),)  # .022 is below .05 / 2, above .05 / 3
+    yield (policies(rng, 40, (3, 0), (7, 0), (1, 1)),)  # .016
+    yield (policies(rng, 40, (8, 1), (9, 1), (0, 9)),)  # .039, .022 and .004
+    yield (policies(rng, 40, (8, 1), (11, 1), (8, 1), (10, 0)),)
+    for k in (3, 4, 5):
+        yield (policies(rng, 40, *rng.integers(0, 15, (k - 1, 2))),)
+
+
+@row.rare
+def _(rng):
+    near = np.array([(6, 0), (7, 0), (8, 0), (8, 1), (9, 1), (10, 2), (0, 7)])
+    for k in (2, 3, 4):
+        yield (policies(rng, 40, *rng.choice(near, k)),)
+
+
+row.cases(
+    two_policies=lambda success: len(success) == 2,
+    more_than_two_policies=lambda success: len(success) > 2,
+)
+
+
+def pairs(first, others):
+    """Return p-values by the sign test."""
+    return np.array([sign_test(first, other) for other in others])
+
+
+def unpaired(a, b):
+    """Return a p-value as if the starts were not the same (the normal distribution)."""
+    from math import erfc, sqrt
+
+    n, mean = len(a), (a.mean() + b.mean()) / 2
+    spread = sqrt(2 * mean * (1 - mean) / n)
+    return erfc(abs(a.mean() - b.mean()) / spread / sqrt(2)) if spread else 1.0
+
+
+@row.wrongs
+def _(success):
+    """uncorrected: your code compares each p-value with 0.05. With several comparisons
+      a false difference is more likely, so use Holm's method
+    bonferroni: your code compares each p-value with 0.05 / (k - 1). Only the smallest
+      p-value has this limit in Holm's method
+    against-the-next: your code compares each policy with the next one. Compare the
+      first policy with each of the others
+    with-itself: your code gives Holm's method also the comparison of the first policy
+      with itself. There are only k - 1 comparisons
+    against-the-best: your code compares with the policy that has the most successes.
+      The policy to compare with is the first one, chosen before the test
+    unpaired: your code compares the success rates as if the starts were not the same.
+      Use the sign test, because both policies have the same starts
+    all-pairs: your code corrects for all pairs of policies. Only the k - 1 comparisons
+      with the first policy are made
+    """
+    p = pairs(success[0], success[1:])
+    best = np.argmax(success.sum(axis=1))
+    of_best = pairs(success[best], np.delete(success, best, axis=0))
+    following = np.array([sign_test(*two) for two in pairwise(success)])
+    apart = np.array([unpaired(success[0], other) for other in success[1:]])
+    every = [
+        sign_test(success[i], success[j])
+        for i in range(len(success))
+        for j in range(i + 1, len(success))
+    ]
+    return {
+        "uncorrected": (p, p <= 0.05),
+        "bonferroni": (p, p <= 0.05 / len(p)),
+        "against-the-next": (following, holm(following)),
+        "with-itself": (p, holm(np.append(1.0, p))[1:]),
+        "against-the-best": (of_best, holm(of_best)),
+        "unpaired": (apart, holm(apart)),
+        "all-pairs": (p, holm(every)[: len(p)]),
+    }
+
+
+@row.right  # By McNemar's binomial sum and adjusted p-values.
+def _(success):
+    from math import comb
+
+    k = len(success)
+    p = np.ones(k - 1)
+    for i in range(k - 1):
+        win = int(np.sum(success[0] > success[i + 1]))
+        lose = int(np.sum(success[0] < success[i + 1]))
+        d = win + lose  # starts that differ
+        tail = sum(comb(d, j) for j in range(min(win, lose) + 1))
+        p[i] = min(1.0, 2 * tail / 2**d)
+    order = np.argsort(p)
+    adjusted = np.maximum.accumulate(p[order] * np.arange(k - 1, 0, -1))
+    different = np.zeros(k - 1, dtype=bool)
+    different[order] = adjusted <= 0.05
+    return p, different
+
+
+@row.right  # With a loop that stops.
+def _(success):
+    p = [sign_test(success[0], success[i]) for i in range(1, len(success))]
+    different = np.full(len(p), False)
+    left = len(p)  # comparisons that are left
+    for i in np.argsort(p, kind="stable"):
+        if p[i] > 0.05 / left:
+            break
+        different[i] = True
+        left = left - 1
+    return np.array(p), different
+
+
+@row.spans
+def _(rng):
+    yield (policies(rng, 200, (60, 20), (30, 15)),)
+
+
+row.at_least_0(success="True or False", answer="probabilities, and True or False")

@@ -1,0 +1,116 @@
+"""21.2 `keep_inside(p, v, low, high, dt)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+row = Row(Vector((None,), "m/s"), copies=False)
+
+
+@row.inputs
+def _(rng):
+    low, high = np.array([-0.2, -0.3]), np.array([0.2, 0.3])
+    for p, v, dt in (
+        ((0.19, 0.1), (0.2, 0.1), 0.1),
+        ((-0.18, -0.29), (-0.4, -0.3), 0.1),  # into a corner
+        ((0.25, 0.1), (0.1, 0.1), 0.1),  # outside, and further out
+        ((0.25, 0.1), (-0.2, 0.1), 0.1),  # outside, and back
+        ((0.1, -0.34), (0.05, 0.2), 0.1),
+        ((-0.26, 0.2), (-0.3, -0.1), 0.5),
+        ((0.25, 0.0), (-9.0, 0.1), 0.1),  # through the whole box
+        ((0.2, 0.3), (0.1, -0.1), 0.2),  # on the wall
+    ):
+        yield np.array(p), np.array(v), low, high, dt
+    for n in (1, 2, 2, 3, 3):
+        yield inside(rng, n)
+
+
+def inside(rng, n):
+    """Return a position inside of a box, and a velocity that often leads out."""
+    low, size = rng.numbers(-0.6, 0, n), rng.numbers(0.2, 0.7, n)
+    p = low + size * rng.uniform(0.05, 0.95, n).round(2)
+    dt = float(rng.numbers(0.05, 0.4))
+    return p.round(4), rng.numbers(-2, 2, n), low, (low + size).round(4), dt
+
+
+def is_out(p, v, low, high, dt):
+    """Return whether the position is outside of the box."""
+    return bool(np.any((p < low) | (p > high)))
+
+
+row.cases(
+    positions_inside_the_box=lambda *args: not is_out(*args),
+    positions_outside_the_box=is_out,
+)
+
+
+@row.rare
+def _(rng):
+    for n in (1, 2, 3):
+        p, v, low, high, dt = inside(rng, n)
+        p[0] = high[0] + 0.05
+        yield p, v, low, high, dt
+
+
+@row.wrongs
+def _(p, v, low, high, dt):
+    """stops-all: your code sets the whole velocity to 0 if one entry would leave the
+      box. Limit each entry by itself, so that the hand can slide along a wall
+    shortened: your code multiplies the whole velocity by one factor, so a wall stops
+      the motion along it as well. Limit each entry by itself
+    axis-stops: your code sets an entry to 0 if the next position would be outside.
+      Limit this entry so that the hand just reaches the wall
+    jumps-back: your velocity brings a position outside of the box to the wall in one
+      step. Leave an entry that leads back as it is, so that the hand does not jump
+    dt-forgotten: your bounds of the velocity are the distances to the walls. Divide
+      each distance by dt
+    only-if-outside: your code limits the velocity only if the position is already
+      outside. Limit the velocity so that the next position, p + dt v, is not outside
+    may-not-return: your velocity is 0 at every position outside of the box. Keep an
+      entry that leads back to the box
+    position: your function returns the next position. Return the velocity instead
+    """
+    after = p + dt * v
+    there = np.clip(after, low, high)
+    out = (p < low) | (p > high)
+    right = np.clip(v, np.minimum((low - p) / dt, 0), np.maximum((high - p) / dt, 0))
+    worst = np.min(np.divide(right, v, out=np.ones_like(v), where=v != 0))
+    leads_out = ((p > high) & (v > 0)) | ((p < low) & (v < 0))
+    return {
+        "stops-all": v * np.all(right == v),
+        "shortened": worst * v,
+        "axis-stops": v * (right == v),
+        "jumps-back": (there - p) / dt,
+        "dt-forgotten": np.clip(v, np.minimum(low - p, 0), np.maximum(high - p, 0)),
+        "only-if-outside": v * ~leads_out,
+        "may-not-return": right * ~out,
+        "position": p + dt * right,
+    }
+
+
+@row.right  # The next position, clamped to a box that has grown to p.
+def _(p, v, low, high, dt):
+    after = np.clip(p + v * dt, np.minimum(low, p), np.maximum(high, p))
+    return (after - p) / dt
+
+
+@row.right  # Entry by entry.
+def _(p, v, low, high, dt):
+    out = v.copy()
+    for i in range(len(v)):
+        if v[i] > 0:
+            out[i] = min(v[i], max(0, (high[i] - p[i]) / dt))
+        else:
+            out[i] = max(v[i], min(0, (low[i] - p[i]) / dt))
+    return out
+
+
+@row.spans
+def _(rng):
+    low, high = np.array([-0.5, -0.5]), np.array([0.5, 0.5])
+    yield np.array([0.49999, 0.0]), np.array([0.2, 0.1]), low, high, 0.001
+    yield np.array([0.3, -0.4]), np.array([0.2, -0.9]), low, high, 10.0
+    yield np.array([5e-6, -3e-6]), np.array([2e-4, -4e-4]), low, high, 0.1
+
+
+row.at_least_0(dt="a duration")

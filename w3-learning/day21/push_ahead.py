@@ -1,0 +1,193 @@
+"""21.4 `push_ahead(obs, actions, dt, steps, reach)`: its questions and its mistakes."""
+
+import numpy as np
+
+from labkit.judge import Row, Vector
+
+row = Row(Vector((4,), "m", names=("pusher x", "pusher y", "puck x", "puck y")))
+
+
+def scene(rng, distance, k, steps, reach=0.065, speed=0.1):
+    """Return a pusher, a puck at a distance from it, and actions towards the puck."""
+    way, aside = rng.uniform(-np.pi, np.pi), rng.uniform(-0.6, 0.6)
+    pusher = rng.numbers(-0.2, 0.2, 2)
+    puck = pusher + distance * np.array([np.cos(way), np.sin(way)])
+    angles = way + aside + rng.uniform(-0.3, 0.3, k)
+    actions = speed * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    obs = np.concatenate([pusher, puck]).round(4)
+    return obs, actions.round(5), 0.1, steps, reach
+
+
+@row.inputs
+def _(rng):
+    yield np.array([0, 0, 0.06, 0]), np.array([[0.1, 0]]), 0.1, 5, 0.065
+    yield np.array([0, 0, 0.05, 0.04]), np.array([[0.1, 0]] * 4), 0.1, 5, 0.065
+    yield np.array([0, 0, 0.2, 0.1]), np.array([[0.1, -0.1]]), 0.1, 3, 0.065  # free
+    yield np.array([0.1, 0.2, 0.1, 0.3]), np.zeros((0, 2)), 0.1, 5, 0.065
+    yield np.array([0, 0, 0.06, 0]), np.array([[-0.2, 0], [-0.2, 0]]), 0.1, 5, 0.065
+    yield scene(rng, 0.07, 3, 1)
+    yield scene(rng, 0.07, 2, 7, speed=0.2)
+    yield scene(rng, 0.3, 5, 2)
+    for _ in range(4):
+        k, steps = int(rng.integers(1, 5)), int(rng.integers(2, 6))
+        yield scene(rng, float(rng.numbers(0.066, 0.09)), k, steps)
+
+
+row.cases(
+    actions_without_a_contact=lambda obs, actions, dt, steps, reach: bool(
+        np.linalg.norm(obs[2:] - obs[:2])
+        > reach + dt * np.sum(np.linalg.norm(actions, axis=1))
+    ),
+    actions_with_a_contact=lambda obs, actions, dt, steps, reach: bool(
+        np.linalg.norm(obs[2:] - obs[:2]) < reach and len(actions)
+    ),
+)
+
+
+@row.rare
+def _(rng):
+    yield scene(rng, 0.3, 2, 3)
+    yield scene(rng, 0.063, 2, 3)
+
+
+def pushed(obs, actions, dt, steps, reach, part):
+    """Return the observation after each part's rule for pusher and puck."""
+    pusher, puck = obs[:2], obs[2:]
+    for action in actions:
+        for _ in range(steps):
+            pusher, puck = part(pusher, puck, dt / steps * action, reach)
+    return np.concatenate([pusher, puck])
+
+
+def along(pusher, puck, move, reach):
+    """Return both after a part in which the puck moves with the pusher."""
+    near = np.linalg.norm(puck - pusher - move) < reach
+    return pusher + move, puck + move * near
+
+
+def gives_way(pusher, puck, move, reach):
+    """Return both after a part in which the pusher is moved back."""
+    pusher = pusher + move
+    apart = puck - pusher
+    far = np.linalg.norm(apart)
+    return (puck - apart * reach / far if far < reach else pusher), puck
+
+
+def halves(pusher, puck, move, reach):
+    """Return both after a part in which each body takes half of the overlap."""
+    pusher = pusher + move
+    apart = puck - pusher
+    far = np.linalg.norm(apart)
+    half = max(0, reach / far - 1) / 2 * apart
+    return pusher - half, puck + half
+
+
+def pulls(pusher, puck, move, reach):
+    """Return both after a part in which the puck is brought to the distance reach."""
+    pusher = pusher + move
+    apart = puck - pusher
+    return pusher, pusher + apart * reach / np.linalg.norm(apart)
+
+
+def before(pusher, puck, move, reach):
+    """Return both after a part in which the puck is moved before the pusher."""
+    apart = puck - pusher
+    far = np.linalg.norm(apart)
+    return pusher + move, pusher + apart * max(1, reach / far)
+
+
+def ahead(pusher, puck, move, reach):
+    """Return both after a part in which the puck is moved along the action."""
+    pusher = pusher + move
+    apart = puck - pusher
+    speed = np.linalg.norm(move)
+    overlap = reach - np.linalg.norm(apart)
+    return pusher, puck + max(0, overlap) * move / (speed or 1)
+
+
+def twice(pusher, puck, move, reach):
+    """Return both after a part in which the puck is moved by reach."""
+    pusher = pusher + move
+    apart = puck - pusher
+    far = np.linalg.norm(apart)
+    return pusher, puck + apart * reach / far * (far < reach)
+
+
+@row.wrongs
+def _(obs, actions, dt, steps, reach):
+    """one-part: your code moves the pusher by a whole action before it moves the puck.
+      Divide each action into `steps` parts, because the direction of the push changes
+    puck-moves-along: your code moves a puck in contact with the velocity of the pusher.
+      Without friction the puck moves along the line of centres
+    along-the-action: your code moves the puck in the direction of the action. Without
+      friction the puck moves along the line of centres
+    pusher-stops: your code moves the pusher back instead of the puck. The pusher moves
+      as commanded, so move the puck
+    half-each: your code divides the overlap between both bodies. The pusher moves as
+      commanded, so move only the puck
+    pulls: your code moves the puck to the distance `reach` even if it is farther away.
+      The pusher cannot pull, so move the puck only if it is nearer than `reach`
+    puck-first: your code moves the puck before the pusher moves. Move the pusher first
+      in each part, because its move makes the overlap
+    by-the-reach: your code moves the puck by `reach`. Move the puck to the distance
+      `reach` from the pusher
+    one-action: your code uses only the first action. Apply all actions in turn
+    parts-not-shorter: your code moves the pusher by a whole action in each part. Divide
+      the move of an action by `steps`
+    puck-only: your puck is right, but your pusher stays at its start. Return the
+      pusher's position after all actions
+    """
+    given = obs, actions, dt, steps, reach
+    right = pushed(*given, whole)
+    return {
+        "one-part": pushed(obs, actions, dt, 1, reach, whole),
+        "puck-moves-along": pushed(*given, along),
+        "along-the-action": pushed(*given, ahead),
+        "pusher-stops": pushed(*given, gives_way),
+        "half-each": pushed(*given, halves),
+        "pulls": pushed(*given, pulls),
+        "puck-first": pushed(*given, before),
+        "by-the-reach": pushed(*given, twice),
+        "one-action": pushed(obs, actions[:1], dt, steps, reach, whole),
+        "parts-not-shorter": pushed(obs, actions, dt * steps, steps, reach, whole),
+        "puck-only": np.concatenate([obs[:2], right[2:]]),
+    }
+
+
+def whole(pusher, puck, move, reach):
+    """Return both after a part: the right rule."""
+    pusher = pusher + move
+    apart = puck - pusher
+    return pusher, pusher + apart * max(1, reach / np.linalg.norm(apart))
+
+
+@row.right  # In complex numbers.
+def _(obs, actions, dt, steps, reach):
+    pusher, puck = complex(*obs[:2]), complex(*obs[2:])
+    for vx, vy in actions:
+        for _ in range(steps):
+            pusher += (vx + 1j * vy) * dt / steps
+            apart = puck - pusher
+            puck = pusher + apart * max(1, reach / abs(apart))
+    return np.array([pusher.real, pusher.imag, puck.real, puck.imag])
+
+
+@row.right  # By the overlap.
+def _(obs, actions, dt, steps, reach):
+    x, y, u, v = obs
+    for a, b in np.repeat(actions, steps, axis=0):
+        x, y = x + a * dt / steps, y + b * dt / steps
+        far = np.hypot(u - x, v - y)
+        overlap = max(0.0, reach - far)
+        u, v = u + overlap * (u - x) / far, v + overlap * (v - y) / far
+    return np.array([x, y, u, v])
+
+
+@row.spans
+def _(rng):
+    yield scene(rng, 0.066, 15, 20)
+    yield scene(rng, 0.0651, 1, 200)
+    yield scene(rng, 0.065, 3, 5, speed=8e-4)
+
+
+row.at_least_0(dt="a duration", steps="a number of parts", reach="a distance")
