@@ -154,10 +154,14 @@ class TestPlans:
 
     @pytest.mark.kit
     def test_that_are_late_need_it(self):
-        late = pushing.attempt(FNS, 1, late=3)
-        blind = pushing.attempt(FNS, 1, late=3, ahead=False)
+        late = pushing.attempt(FNS, 2, late=3)
+        blind = pushing.attempt(FNS, 2, late=3, ahead=False)
         assert late.home
         assert not blind.home
+
+    def test_that_arrive_after_the_next_one_are_refused(self, quick):
+        with pytest.raises(ValueError, match="late is 5; expected 0 to 4"):
+            pushing.attempt(FNS, late=5)
 
     def test_are_the_same_for_the_same_functions_and_trained_once(self, right):
         first, again = pushing.policy(FNS), pushing.policy(pushing.library())
@@ -229,7 +233,7 @@ class TestTheAblations:
 
         assert done("puck's position given").seen_mm == 0.0
         assert done("no blur in the camera").seen_mm > 12.0
-        assert done("no forward velocity").lag_mm > 25.0
+        assert done("no feedforward velocity").lag_mm > 25.0
         beside = done("camera 30 mm off")
         assert not beside.home
         assert beside.new < beside.limit  # a guard sees what is new, not what is wrong
@@ -265,9 +269,9 @@ def test_a_film_of_it_has_the_ball_at_the_tool_and_all_that_stands_around(right)
     last = film.qpos[-1]
     kinds = [block.kind for block in film.blocks(last)]
     assert kinds == ["box", "cylinder", "box", "capsule", "sphere", "cylinder"]
-    ball, puck = (film.blocks(last)[i].T_world_box[:2, 3] for i in (4, 5))
+    sphere, puck = (film.blocks(last)[i].T_world_box[:2, 3] for i in (4, 5))
     np.testing.assert_allclose(puck - scene.HOME, last[9:], atol=1e-12)
-    assert np.linalg.norm(ball - puck) > push.R - 0.002
+    assert np.linalg.norm(sphere - puck) > push.R - 0.002
 
 
 @pytest.mark.gl
@@ -295,7 +299,7 @@ def test_the_scene_has_nothing_that_touches_but_ball_and_puck():
     model = scene.tray(task.PUCK)
     touches = {model.geom(i).name for i in range(model.ngeom)
                if model.geom_contype[i]}  # fmt: skip
-    assert touches == {"ball", "puck"}
+    assert touches == {"sphere", "puck"}
     data = scene.start(model)
     mujoco.mj_kinematics(model, data)
     np.testing.assert_allclose(data.body("puck").xpos, scene.world(task.PUCK))

@@ -36,7 +36,7 @@ def draw(facts: Mapping[str, Any], tried: Attempt) -> Image.Image:
         tried: what came of the capstone.
     """
     counted = {
-        "functions": "functions of the student, correct",
+        "functions": "student functions, correct",
         "numbers": "numbers, computed again",
     }
     rows = [(facts[key], words, _whole(facts[key])) for key, words in counted.items()]

@@ -1,10 +1,10 @@
 """The capstone of Week 3: the arm goes round a puck and pushes it home, twice.
 
 What `make capstone` and `make proof` ask of it stands in `robo47.attempt`. A diffusion
-policy learns from demonstrations in a plane (Days 15 to 17) and moves a ball in the
+policy learns from demonstrations in a plane (Days 15 to 17) and moves a sphere in the
 Panda's hand: an eye sees the puck through a tray of glass (Day 19), the policy draws on
 which side it goes round the puck (Day 17), and what stands between its plans and the
-arm is Day 21's. After three seconds somebody moves the puck aside.
+arm is Day 21's. After three seconds a hand moves the puck aside.
 
 `attempt` is given the functions to do it with, one per name in `USES`: the library's
 (`library()`), a student's, or a mixture.
@@ -47,7 +47,7 @@ from robo47.pushing.task import PUCK, Options, Push
 
 NAME = "the push"
 THING = "puck"
-GOAL = "home within 10 mm, after somebody moved it"
+GOAL = "at home within 10 mm, although a hand moved it"
 MORAL = (
     "Each row has the worst numbers of three pucks. Home is no proof: compare the\n"
     "error of the camera (seen), the lag, and the score of the guard (new)."
@@ -146,10 +146,10 @@ def random_puck(seed: int) -> Array:
 
 
 def lag(fns: Any, direction: ArrayLike, speed: float, forward: bool = True) -> float:
-    """Return how far the ball trails its set point in the simulation, metres.
+    """Return how far the sphere trails its set point in the simulation, metres.
 
     The set point moves at a constant speed for one second, and its distance ahead of
-    the ball is measured when it reaches home.
+    the sphere is measured when it reaches home.
 
     Args:
         fns: has the functions of Week 1 in `USES`.
@@ -169,11 +169,11 @@ def lag(fns: Any, direction: ArrayLike, speed: float, forward: bool = True) -> f
 
     world = model, simulate.start(model, q)
     run = simulate.run(*world, controller, LAG_SECONDS, rate=task.RATE)
-    return float(-arm.ball(run.q[-1]) @ along)
+    return float(-arm.sphere(run.q[-1]) @ along)
 
 
 def inertia(fns: Any, direction: ArrayLike) -> float:
-    """Return the task-space inertia of the ball at home in a direction, kg.
+    """Return the task-space inertia of the sphere at home in a direction, kg.
 
     Args:
         fns: has the functions of Week 1 in `USES`.
@@ -213,7 +213,7 @@ def ablations(fns: Any) -> dict[str, tuple[Any, dict[str, Any]]]:
         "whole plans of 8": {"executed": 8},
         "plans 0.3 s late": {"late": 3},
         "late, not predicted": {"late": 3, "ahead": False},
-        "no forward velocity": {"forward": False},
+        "no feedforward velocity": {"forward": False},
         "a puck of 400 g": {"mass": 0.4},
         "damping of 2 N s/m": {"damping": 2.0},
     }

@@ -1,4 +1,4 @@
-"""The arm of the push: Week 1's, with a spring between the ball and a moving set point.
+"""The arm of the push: Week 1's, with a spring from its tool to a moving set point.
 
 Metres, radians, seconds, N m; poses `T_world_x` are (4, 4).
 """
@@ -18,7 +18,7 @@ DOWN = np.diag([1.0, -1.0, -1.0])  # orientation of a hand that points down
 
 
 class PushingArm(Arm):
-    """The seven joints with the hand; the tool is the ball."""
+    """The seven joints with the hand; the tool is the sphere."""
 
     def __init__(self, fns: Any, model: mujoco.MjModel, forward: bool = True):
         """Read the model's numbers.
@@ -35,14 +35,14 @@ class PushingArm(Arm):
         """Return the pose of the tool at a point of the plane, (2,)."""
         return self.fns.make_T(DOWN, scene.world(xy))
 
-    def ball(self, q: Array) -> Array:
-        """Return the position of the ball in the plane at a configuration, (2,)."""
+    def sphere(self, q: Array) -> Array:
+        """Return the position of the sphere in the plane at a configuration, (2,)."""
         return np.asarray(self.end(q))[:2, 3] - scene.HOME
 
     def follow(self, set_point: SetPoint, posture: Array) -> Law:
-        """Return a critically damped spring between the ball and a moving set point.
+        """Return a critically damped spring between the sphere and a moving set point.
 
-        It keeps the worst distance of the ball from its set point in the plane, metres.
+        It keeps the largest distance of the sphere from its set point, metres.
 
         Args:
             set_point: position and velocity in the plane at a time.

@@ -4,7 +4,7 @@ All learn from the same demonstrations in the plane of `robo47.push`, with funct
 Days 15 to 17. A policy is trained once for the functions that train it and is then
 kept.
 
-Metres, seconds; observations (n, 4) and actions (n, 2) are those of `robo47.push`.
+Metres, seconds; `robo47.push` defines the observations (n, 4) and actions (n, 2).
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -143,8 +143,8 @@ def demonstrations(fns: Any, actions: int) -> Data:
     plans, mask = fns.action_chunks(action, episode, actions)
     plans = np.asarray(plans).reshape(len(seen), -1)
     scalers = fns.fit_scaler(seen), fns.fit_scaler(plans)
-    z = [fns.normalise(x, by) for x, by in zip((seen, plans), scalers, strict=True)]
-    return Data(*z, mask, scalers)
+    z, x0 = fns.normalise(seen, scalers[0]), fns.normalise(plans, scalers[1])
+    return Data(z, x0, mask, scalers)
 
 
 def _trained(

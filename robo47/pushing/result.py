@@ -9,7 +9,7 @@ from robo47.checks import Array
 from robo47.pushing import task
 
 SEEN_MM = 4.0  # mm: an eye that is further off than this is not the one that was built
-LAG_MM = 15.0  # mm: a ball that lags further does not follow its set point
+LAG_MM = 15.0  # mm: a sphere that lags further does not follow its set point
 
 
 class Result(NamedTuple):
@@ -17,12 +17,12 @@ class Result(NamedTuple):
 
     place_mm: float  # distance of the puck from its mark, at the end
     time: float  # since when it stays home, s after the push began; nan if it does not
-    left: bool  # the ball goes around the puck on the left, seen towards home
+    left: bool  # the sphere goes around the puck on the left, seen towards home
     seen_mm: float  # worst error of the eye
-    lag_mm: float  # worst distance of the ball from its set point
+    lag_mm: float  # worst distance of the sphere from its set point
     new: float  # largest distance from the demonstrations, standard deviations
     limit: float  # of the guard
-    moved: bool  # somebody moved the puck
+    moved: bool  # a hand moved the puck
     stopped: str  # why it did not go on; "" where it did
     observed: Array  # observations at the ticks, (ticks, 4)
     seconds: float  # the duration of the task in the simulation
@@ -76,9 +76,12 @@ def worst(results: Sequence[Result]) -> Result:
     def most(name: str) -> float:
         return float(np.max([getattr(one, name) for one in results]))  # NaN stays
 
-    numbers = ("place_mm", "time", "seen_mm", "lag_mm", "new")
     return results[0]._replace(
-        **{name: most(name) for name in numbers},
+        place_mm=most("place_mm"),
+        time=most("time"),
+        seen_mm=most("seen_mm"),
+        lag_mm=most("lag_mm"),
+        new=most("new"),
         stopped=next(filter(None, (one.stopped for one in results)), ""),
         homes=tuple(one.home for one in results),
         places_mm=tuple(one.place_mm for one in results),
@@ -94,7 +97,7 @@ def _home_since(place: Array, t: Array) -> float:
 
 
 def _on_the_left(observed: Array) -> bool:
-    """Return on which side the ball first goes around the puck, seen towards home."""
+    """Return on which side the sphere first goes around the puck, seen towards home."""
     puck = observed[0, 2:]
     left = np.array([puck[1], -puck[0]])
     before = observed[: int(task.ROUND_SECONDS * 10), :2] - puck

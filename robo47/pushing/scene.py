@@ -1,7 +1,7 @@
-"""The scene of the push: the Panda with a ball on a stick, a puck, an eye below.
+"""The scene of the push: the Panda with a sphere on a stick, a puck, an eye below.
 
 The puck slides on a glass tray, so the eye below it sees it whatever the arm does. The
-plane of Week 3's policy (`robo47.push`) is the plane of the centres of ball and puck;
+plane of Week 3's policy (`robo47.push`) is the plane of the centres of sphere and puck;
 its origin, home, is at HOME in the world. Metres, kilograms.
 """
 
@@ -14,15 +14,15 @@ from robo47.checks import Array
 from robo47.panda import READY_Q
 
 HOME = (0.5, 0.0)  # m, of home in the world
-TRAY = 0.2  # m, height of the tray's top
+TRAY = 0.2  # m, height of the mark's top
 PUCK_HALF = 0.015  # m, half the height of the puck
 HEIGHT = TRAY + PUCK_HALF + 0.001  # m, of the plane; the puck floats over the glass
-STICK = 0.08  # m, from between the fingers to the centre of the ball
+STICK = 0.08  # m, from between the fingers to the centre of the sphere
 STICK_RADIUS = 0.004  # m
 TRAY_HALF = (0.3, 0.3, 0.005)  # m
 EYE = (*HOME, 0.03)  # m
 EYE_HALF = (0.05, 0.05, 0.02)  # m
-MARK_HALF = (push.PUCK, 0.0002, 0.0)  # m, radius and half the height
+MARK_HALF = (push.PUCK, 0.001, 0.0)  # m, radius and half the height
 CONTACT = 0.004  # s, time constant of the contact: two time steps
 GLASS = (0.55, 0.75, 0.85, 0.25)
 ORANGE = (0.90, 0.62, 0.0, 1.0)
@@ -46,7 +46,7 @@ def tray(
         meshes: True keeps the robot's visual meshes.
 
     Returns:
-        The model; site `tcp` is the centre of the ball.
+        The model; site `tcp` is the centre of the sphere.
 
     Raises:
         ValueError: a wrong shape or number.
@@ -59,7 +59,7 @@ def tray(
     def edit(spec: mujoco.MjSpec) -> None:
         for geom in spec.geoms:
             geom.contype = geom.conaffinity = 0
-        _add_ball(spec.body("hand"))
+        _add_sphere(spec.body("hand"))
         _add_puck(spec, mass, damping)
         _add_looks(spec)
         for key in spec.keys:  # the puck adds two numbers to qpos
@@ -87,20 +87,23 @@ def world(xy: ArrayLike) -> Array:
     return np.array([*np.add(HOME, xy), HEIGHT])
 
 
-def _add_ball(hand) -> None:
-    """Fix the stick and the ball to the hand; both are without mass."""
+def _add_sphere(hand) -> None:
+    """Fix the stick and the sphere to the hand; both are without mass."""
     at = np.add(scenes.TCP, (0.0, 0.0, STICK))
     hand.add_site(name="tcp", pos=at)
     stick = hand.add_geom(
         name="stick", type=mujoco.mjtGeom.mjGEOM_CAPSULE, size=[STICK_RADIUS, 0, 0]
     )
     stick.fromto = [*scenes.TCP, *at]
-    ball = hand.add_geom(
-        name="ball", type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[push.PUSHER, 0, 0], pos=at
+    sphere = hand.add_geom(
+        name="sphere",
+        type=mujoco.mjtGeom.mjGEOM_SPHERE,
+        size=[push.PUSHER, 0, 0],
+        pos=at,
     )
-    _touches(ball)
+    _touches(sphere)
     stick.contype = stick.conaffinity = 0
-    for geom in (stick, ball):
+    for geom in (stick, sphere):
         geom.mass = 0.0
         geom.rgba = DARK
 
@@ -124,11 +127,12 @@ def _add_puck(spec: mujoco.MjSpec, mass: float, damping: float) -> None:
 def _add_looks(spec: mujoco.MjSpec) -> None:
     """Add tray, eye and mark, which nothing touches."""
     box, disc = mujoco.mjtGeom.mjGEOM_BOX, mujoco.mjtGeom.mjGEOM_CYLINDER
-    middle = (*HOME, TRAY - TRAY_HALF[2])
+    floor = TRAY - 2.0 * MARK_HALF[1]  # below the mark, so that both are seen
+    middle = (*HOME, floor - TRAY_HALF[2])
     for name, kind, pos, half, colour in (
         ("tray", box, middle, TRAY_HALF, GLASS),
         ("eye", box, EYE, EYE_HALF, DARK),
-        ("mark", disc, (*HOME, TRAY), MARK_HALF, GREEN),
+        ("mark", disc, (*HOME, TRAY - MARK_HALF[1]), MARK_HALF, GREEN),
     ):
         geom = spec.worldbody.add_geom(name=name, type=kind, pos=pos, size=half)
         geom.contype = geom.conaffinity = 0

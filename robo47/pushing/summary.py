@@ -17,7 +17,7 @@ HEAD = f"""
 {"":24}{"place":>7}{"time":>7}{"side":>7}{"seen":>7}{"lag":>7}{"new":>7}{"home":>9}
 {"":24}{"mm":>7}{"s":>7}{"":7}{"mm":>7}{"mm":>7}"""
 MOMENTS = ("push", "moved by hand", "push again", "home")
-DRAWN = ("tray", "mark", "eye", "stick", "ball", "puck")  # geoms besides the arm
+DRAWN = ("tray", "mark", "eye", "stick", "sphere", "puck")  # geoms besides the arm
 KINDS = {
     mujoco.mjtGeom.mjGEOM_BOX: "box",
     mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder",
@@ -62,8 +62,9 @@ def summary(result: Result) -> Summary:
         if not result.stopped
         else f"The arm stops: {result.stopped}.",
         way=f"It goes around the puck on the {side}. The camera is at most"
-        f" {result.seen_mm:.1f} mm off, and the ball at most {result.lag_mm:.1f} mm"
-        " from its set point.",
+        f" {result.seen_mm:.1f} mm off, and the sphere at most {result.lag_mm:.1f} mm"
+        " from its set point. It was one simulator, one puck, and one hand that moved"
+        " it.",
         figures=figures(result),
     )
 
@@ -77,7 +78,7 @@ def figures(result: Result) -> list[tuple[str, str, str]]:
             f"under {SEEN_MM:.0f} mm",
         ),
         (
-            "largest distance of the ball from its set point",
+            "largest distance of the sphere from its set point",
             f"{result.lag_mm:.1f} mm",
             f"under {LAG_MM:.0f} mm",
         ),

@@ -1,6 +1,6 @@
 """The push on the arm: an approach, then ticks of looking, drawing and moving.
 
-Metres, radians, seconds, N m; positions of ball and puck are relative to home, (2,).
+Metres, radians, seconds, N m; positions of sphere and puck are relative to home, (2,).
 """
 
 from typing import Any, NamedTuple
@@ -20,10 +20,11 @@ SPEED = 0.4  # of the approach, as a fraction of the joints' limits
 RATE = 100.0  # Hz, of the controller
 
 FASTEST = 0.2  # m/s, of the set point
-LOW, HIGH = np.array([-0.27, -0.27]), np.array([0.27, 0.27])  # m, of the set point
-ROUND_SECONDS = 2.5  # s, in which the ball goes around the puck
+# m, of the set point; beyond this x the elbow is straight, and the arm stops following
+LOW, HIGH = np.array([-0.27, -0.27]), np.array([0.24, 0.27])
+ROUND_SECONDS = 2.5  # s, in which the sphere goes around the puck
 PARTS = 5  # of a tick, when it looks ahead
-HAND_SECONDS = 0.3  # s in which somebody moves the puck, at a right angle to its way
+HAND_TICKS = 3  # in which a hand moves the puck, at a right angle to its way home
 
 HOME_MM = 10.0  # mm: a puck closer to its mark than this is home
 
@@ -41,7 +42,7 @@ class Options(NamedTuple):
     late: int = 1  # ticks from a look to the plan that was drawn from it
     ahead: bool = True  # a late plan is drawn for where things will be
     forward: bool = True  # the spring's damper is given the set point's velocity
-    moved: bool = True  # somebody moves the puck
+    moved: bool = True  # a hand moves the puck
     draw: int = 0  # seed of the draws
 
 
@@ -56,7 +57,15 @@ class Push:
             puck: where the puck stands, (2,).
             limit: of the guard's scores.
             options: changes of the usual attempt.
+
+        Raises:
+            ValueError: a plan that arrives after the next one was drawn.
         """
+        if not 0 <= options.late <= options.executed:
+            raise ValueError(
+                f"late is {options.late}; expected 0 to {options.executed}, the number"
+                " of actions of a plan that are executed"
+            )
         self.fns, self.options = fns, options
         self.model = scene.tray(puck, mass=options.mass, damping=options.damping)
         self.data = scene.start(self.model)
@@ -77,7 +86,7 @@ class Push:
         self.now = 0.0
 
     def approach(self) -> None:
-        """Move the ball to home along a joint trajectory."""
+        """Move the sphere to home along a joint trajectory."""
         q0 = self.joints()
         q1, _ = self.arm.waypoint(self.arm.pose_at(np.zeros(2)), READY_Q)
         v, a = (SPEED * most for most in (simulate.SPEED_LIMITS, simulate.ACC_LIMITS))
@@ -85,7 +94,7 @@ class Push:
         self.phases.append(("approach", self.now))
         self._run(self.arm.move(q0, q1, T), np.ceil(T * RATE) / RATE)
         self.posture = self.joints()
-        self.set_point = self.ball()
+        self.set_point = self.sphere()
         self.arm.worst = 0.0
 
     def push(self) -> None:
@@ -103,11 +112,11 @@ class Push:
             self._move(self._action(tick), self._hand(tick))
 
     def _look(self) -> Array:
-        """Return the observation: where ball and puck are, (4,)."""
+        """Return the observation: where sphere and puck are, (4,)."""
         truth = self.puck()
         found = truth if self.options.known_puck else self.eye.look(self.data)
         self.seen_off.append(float(np.linalg.norm(found - truth)))
-        self.observed.append(np.append(self.ball(), found))
+        self.observed.append(np.append(self.sphere(), found))
         return self.observed[-1]
 
     def _draw(self, seen: Array, tick: int) -> None:
@@ -134,23 +143,22 @@ class Push:
         return np.asarray(self.fns.keep_inside(self.set_point, v, LOW, HIGH, push.TICK))
 
     def _hand(self, tick: int) -> Array:
-        """Return the velocity at which somebody moves the puck in a tick, (2,)."""
-        t = tick * push.TICK - guard.BEFORE * push.TICK
-        inside = -1e-9 < t < HAND_SECONDS - 1e-9
-        if not (self.options.moved and inside):
+        """Return the velocity at which a hand moves the puck in a tick, (2,)."""
+        since = tick - guard.BEFORE
+        if not (self.options.moved and 0 <= since < HAND_TICKS):
             if self.phases[-1][0] == "moved by hand":
                 self.phases.append(("push again", self.now))
             return np.zeros(2)
-        if t < 1e-9:
+        if since == 0:
             self.phases.append(("moved by hand", self.now))
             x, y = self.puck()
             across = np.array([-y, x]) / max(np.hypot(x, y), 1e-9)
-            away = np.sign((self.puck() - self.ball()) @ across) or 1.0
+            away = np.sign((self.puck() - self.sphere()) @ across) or 1.0
             self.across = away * across
-        return guard.MOVED / HAND_SECONDS * self.across
+        return guard.MOVED / (HAND_TICKS * push.TICK) * self.across
 
     def _move(self, v: Array, hand: Array) -> None:
-        """Move the set point for a tick, and the puck if somebody does."""
+        """Move the set point for a tick, and the puck if the hand does."""
         start = self.set_point
 
         def set_point(t: float) -> tuple[Array, Array]:
@@ -181,9 +189,9 @@ class Push:
         """Return the measured configuration, (7,)."""
         return self.data.qpos[simulate.addresses(self.model)[0]].copy()
 
-    def ball(self) -> Array:
-        """Return the position of the ball from the measured configuration, (2,)."""
-        return self.arm.ball(self.joints())
+    def sphere(self) -> Array:
+        """Return the position of the sphere from the measured configuration, (2,)."""
+        return self.arm.sphere(self.joints())
 
     def puck(self) -> Array:
         """Return the true position of the puck, (2,)."""

@@ -81,4 +81,4 @@ def small() -> Image.Image:
 
 
 FIGURES = {"push": pushed}
-SMALL = (small, "4 of 10")  # of a table of days, and its number
+SMALL = (small, "5 of 10")  # of a table of days, and its number

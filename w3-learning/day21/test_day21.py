@@ -68,6 +68,16 @@ def test_the_pucks_of_the_box_are_those_with_room_behind_them(printed):
     assert "0.2 mm outside" in printed
 
 
+def test_a_faster_motor_overshoots_the_wall_less():
+    over = []
+    for kv in ("2000", "4000"):
+        with patch.object(push, "XML", push.XML.replace('kv="2000"', f'kv="{kv}"')):
+            seen = lab.in_the_box(dock()[:30]).observation
+        over.append(np.abs(seen[:, :, :2]).max() - lab.WALL)
+    assert over[1] / over[0] == pytest.approx(0.5, abs=0.02)
+    assert "because the simulated motor follows a change of its velocity" in SENTENCES
+
+
 def test_a_clamp_of_each_entry_is_right_along_an_axis():
     for v, same in (([0.3, 0.0], True), ([0.1, 0.05], True), ([0.3, 0.1], False)):
         wrong = np.clip(v, -0.2, 0.2)
@@ -199,7 +209,7 @@ def test_the_league_on_a_hundred_starts():
             value = row[2].strip()
             assert value == ("below 0.001" if p[i - 1] < 0.001 else f"{p[i - 1]:.2g}")
     assert np.sum(p > 0.012) == 1
-    assert "the limit of this row is 0.025" in SENTENCES
+    assert "the last row with a limit of 0.025 instead of 0.05" in SENTENCES
 
 
 @pytest.mark.kit
@@ -227,7 +237,7 @@ def test_a_shifted_camera_costs_the_puck_and_raises_no_alarm():
 
 @pytest.mark.soak
 def test_ten_pucks_with_late_plans():
-    for ahead, words in ((True, "10 of 10 come home again"), (False, "4 of 10 pucks")):
+    for ahead, words in ((True, "10 of 10 come home again"), (False, "5 of 10 pucks")):
         done = [
             pushing.attempt(fns(), seed, late=3, ahead=ahead) for seed in range(1, 11)
         ]
@@ -238,7 +248,7 @@ def test_ten_pucks_with_late_plans():
 
 @pytest.mark.soak
 def test_twenty_pucks_on_the_arm():
-    done = [pushing.attempt(fns(), seed) for seed in range(1, 21)]
+    done = [pushing.attempt(fns(), seed) for seed in range(20)]
     assert sum(one.home for one in done) >= 18
     assert max(one.seen_mm for one in done) < 4
     assert "all twenty end within 10 mm" in SENTENCES
