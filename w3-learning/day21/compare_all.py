@@ -15,6 +15,9 @@ row = Row(
 )
 
 
+SORTED = "its p-values are in ascending order"
+
+
 def policies(rng, n, *better):
     """Return successes of a first policy, and of others that it beats by some starts.
 
@@ -87,7 +90,7 @@ def unpaired(a, b):
     return erfc(abs(a.mean() - b.mean()) / spread / sqrt(2)) if spread else 1.0
 
 
-@row.wrongs
+@row.wrongs(hidden=dict.fromkeys(("mask-sorted", "sorted"), SORTED))
 def _(success):
     """uncorrected: your code compares each p-value with 0.05. With several comparisons
       a false difference is more likely, so use Holm's method

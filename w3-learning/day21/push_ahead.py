@@ -162,7 +162,12 @@ def from_the_start(obs, actions, dt, steps, reach):
     return end
 
 
-@row.wrongs
+@row.wrongs(
+    hidden={
+        "old-line 2": "in parts so short both lines are nearly the same",
+        "interleaved": "the actions of its exact push are equal",
+    }
+)
 def _(obs, actions, dt, steps, reach):
     """one-part: your code moves the pusher by a whole action before it moves the puck.
       Divide each action into `steps` parts, because the direction of the push changes
