@@ -17,6 +17,8 @@ def _(rng):
     yield np.array([0.1, 0.2, np.nan, np.nan]), 0.5, 2
     yield np.array([np.nan, 0.2, np.nan]), 0.5, 2  # never
     yield np.array([0.1, 3.0, 9.0]), np.inf, 1  # too few scores for a limit
+    yield np.array([0.1, np.nan, np.nan, 0.3]), np.inf, 2
+    yield np.array([0.1, 0.3, np.nan, np.nan]), np.inf, 1
     yield np.array([0.7]), 0.5, 1
     yield np.array([0.7]), 0.5, 2
     yield np.array([-0.9, -0.2, 0.1, -0.7, -0.2, -0.3]), -0.5, 2
@@ -59,7 +61,7 @@ def counted_down(above):
     return counts
 
 
-@row.wrongs
+@row.wrongs(hidden={"nan-is-infinity": "the limit of its check is 0.5"})
 def _(score, limit, ticks):
     """not-in-a-row: your code counts all ticks above the limit. Set the counter to 0 at
       each tick that is not above the limit
@@ -91,6 +93,8 @@ def _(score, limit, ticks):
     counted-from-1 2: your code counts the ticks from 1. The first tick is tick 0
     mean: your code compares the mean of the last scores with the limit. Each of these
       scores should be above the limit
+    nan-is-infinity: your code treats NaN as infinity, which is not above an infinite
+      limit. A lost measurement should raise an alarm with each limit
     nan-at-once: your code raises the alarm at the first NaN. A NaN is only one tick
       above the limit
     last-alarm: your function returns the last tick with an alarm. Return the first one
@@ -125,6 +129,7 @@ def _(score, limit, ticks):
         "counted-from-1": right + 1 if right >= 0 else -1,
         "counted-from-1 2": right + 1,
         "mean": means.index(True) + ticks - 1 if any(means) else -1,
+        "nan-is-infinity": at(np.nan_to_num(score, nan=np.inf) > limit, ticks),
         "nan-at-once": min([*lost[:1], *([soon] if soon >= 0 else [])], default=-1),
         "last-alarm": max(np.flatnonzero(row_of), default=-1),
     }

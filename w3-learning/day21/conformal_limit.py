@@ -52,6 +52,8 @@ def _(rng):
 def _(scores, share):
     """quantile: your function interpolates a quantile of the n scores, as np.quantile
       does. Return the k-th smallest score, k = ceil((n + 1) (1 - share))
+    quantile 2: your function rounds a quantile of the n scores up to a score. Return
+      the k-th smallest score, k = ceil((n + 1) (1 - share))
     clamped: your function returns the largest score if there are too few scores. Return
       infinity, because no smaller limit has the guarantee
     clamped 2: your function returns the largest score if there are too few scores.
@@ -101,6 +103,7 @@ def _(scores, share):
     unique = np.unique(scores)
     return {
         "quantile": np.quantile(scores, 1 - share) if n else np.nan,
+        "quantile 2": np.quantile(scores, 1 - share, method="higher") if n else np.inf,
         "clamped": min(ranked_at(k), largest),
         "clamped 2": ranked_at(min(k, n)),
         "floor": ranked_at(floor(exact)),

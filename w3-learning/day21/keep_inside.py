@@ -21,8 +21,13 @@ def _(rng):
         ((0.2, 0.3), (0.1, -0.1), 0.2),  # on the wall
         ((0.21, 0.1), (-0.3, 0.1), 0.1),  # outside, and inside after dt
         ((0.1, -0.31), (-0.2, 0.25), 0.2),
+        ((0.1, 0.32), (0.05, 0.3), 0.1),  # the other entry, further out
+        ((-0.1, -0.35), (0.1, 7.5), 0.1),  # and through the whole box
     ):
         yield np.array(p), np.array(v), low, high, dt
+    low, high = np.array([-0.2, -0.3, -0.1]), np.array([0.2, 0.3, 0.4])
+    yield np.array([0.1, 0.0, 0.38]), np.array([0.1, -0.1, 0.5]), low, high, 0.1
+    yield np.array([0.0, 0.1, -0.08]), np.array([0.3, -0.1, -0.5]), low, high, 0.1
     for n in (1, 2, 2, 3, 3):
         yield inside(rng, n)
 
@@ -57,6 +62,7 @@ def _(rng):
 @row.wrongs(
     hidden={
         "fixed-duration": "a tick of the lab is 0.1 s",
+        "first-two": "the lab's boxes are in the plane",
         "symmetric": "the lab's boxes are symmetric",
     }
 )
@@ -96,6 +102,8 @@ def _(p, v, low, high, dt):
       walls as well
     first-walls: your code uses the walls of the first entry for all entries. Each entry
       has its own walls
+    first-two: your code limits only the first two entries. A position may have three
+      entries, so limit all of them
     symmetric: your code uses `-high` as the lower wall. Use `low`, because the box need
       not be symmetric
     min-and-max: your code exchanges the minimum and the maximum with 0. The lower bound
@@ -136,6 +144,7 @@ def _(p, v, low, high, dt):
         "first-walls": np.clip(
             v, np.minimum((low[0] - p) / dt, 0), np.maximum((high[0] - p) / dt, 0)
         ),
+        "first-two": np.append(right[:2], v[2:]),
         "symmetric": np.clip(v, np.minimum((-high - p) / dt, 0), np.maximum(up, 0)),
         "min-and-max": np.clip(v, np.maximum(down, 0), np.minimum(up, 0)),
         "no-way-back": np.where(out, outwards, right),
