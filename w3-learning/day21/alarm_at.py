@@ -17,9 +17,14 @@ def _(rng):
     yield np.array([0.1, 0.2, np.nan, np.nan]), 0.5, 2
     yield np.array([np.nan, 0.2, np.nan]), 0.5, 2  # never
     yield np.array([0.1, 3.0, 9.0]), np.inf, 1  # too few scores for a limit
+    yield np.array([0.1, np.nan, np.nan, 0.3]), np.inf, 2
+    yield np.array([0.1, 0.3, np.nan, np.nan]), np.inf, 1
     yield np.array([0.7]), 0.5, 1
     yield np.array([0.7]), 0.5, 2
     yield np.array([-0.9, -0.2, 0.1, -0.7, -0.2, -0.3]), -0.5, 2
+    yield np.array([-0.9, np.nan, -0.7, -0.8, np.nan, -0.3]), 0.2, 2  # never
+    yield np.array([0.9, 0.9, 0.1, 0.9, 0.9, 0.2, 0.9]), 0.5, 3  # never
+    yield np.array([0.9, np.nan, 0.1, 0.9, 0.2, 0.9, 0.9, 0.9]), 0.5, 3
     for T in (6, 9, 12, 12, 20, 20):
         yield some(rng, T)
 
@@ -47,7 +52,16 @@ def at(above, ticks):
     return -1
 
 
-@row.wrongs
+def counted_down(above):
+    """Return the counter at each tick if a tick that is not above reduces it by 1."""
+    count, counts = 0, []
+    for high in above:
+        count = count + 1 if high else max(count - 1, 0)
+        counts.append(count)
+    return counts
+
+
+@row.wrongs(hidden={"nan-is-infinity": "the limit of its check is 0.5"})
 def _(score, limit, ticks):
     """not-in-a-row: your code counts all ticks above the limit. Set the counter to 0 at
       each tick that is not above the limit
@@ -65,6 +79,24 @@ def _(score, limit, ticks):
       in a row were above the limit
     end-if-none: your function returns the number of ticks if there is no alarm. Return
       -1 in this case
+    zero-if-none: your function returns 0 if there is no alarm. Return -1 in this case,
+      because 0 is the first tick
+    end-of-the-row: your function returns the last tick of all ticks in a row. Return
+      the tick at which `ticks` of them are in a row
+    end-if-none 2: your function returns the last tick if there is no alarm. Return -1
+      in this case
+    counts-down: your code reduces the counter by 1 at a tick that is not above the
+      limit. Set it to 0, because the ticks have to be in a row
+    any-of-them: your code raises the alarm if any of the last ticks was above the
+      limit. All of the last `ticks` scores should be above it
+    counted-from-1: your code counts the ticks from 1. The first tick is tick 0
+    counted-from-1 2: your code counts the ticks from 1. The first tick is tick 0
+    mean: your code compares the mean of the last scores with the limit. Each of these
+      scores should be above the limit
+    nan-is-infinity: your code treats NaN as infinity, which is not above an infinite
+      limit. A lost measurement should raise an alarm with each limit
+    nan-at-once: your code raises the alarm at the first NaN. A NaN is only one tick
+      above the limit
     last-alarm: your function returns the last tick with an alarm. Return the first one
     """
     above = ~(score <= limit)
@@ -72,16 +104,33 @@ def _(score, limit, ticks):
     row_of = [at(above[: i + 1][-ticks:], ticks) >= 0 for i in range(len(score))]
     count = np.cumsum(above)
     kept = np.flatnonzero(~np.isnan(score))
+    windows = [score[i + 1 - ticks : i + 1] for i in range(ticks - 1, len(score))]
+    means = [~(np.mean(some) <= limit) for some in windows]
+    ends = np.flatnonzero(row_of & np.append(~above[1:], True))
+    lost = np.flatnonzero(np.isnan(score))
+    first = at(above, 1)
+    reduced = counted_down(above)
+    soon = at(score > limit, ticks)
     skipped = at(score[kept] > limit, ticks)
     return {
         "not-in-a-row": int(np.argmax(count >= ticks)) if count[-1] >= ticks else -1,
-        "first-above": at(above, 1),
+        "first-above": first,
         "start-of-the-row": right - ticks + 1 if right >= 0 else -1,
         "nan-is-fine": at(score > limit, ticks),
         "nan-is-skipped": int(kept[skipped]) if skipped >= 0 else -1,
         "at-the-limit": at(~(score < limit), ticks),
         "one-more": at(above, ticks + 1),
         "end-if-none": right if right >= 0 else len(score),
+        "end-if-none 2": right if right >= 0 else len(score) - 1,
+        "counts-down": reduced.index(ticks) if ticks in reduced else -1,
+        "any-of-them": max(first, ticks - 1) if first >= 0 and windows else -1,
+        "zero-if-none": max(right, 0),
+        "end-of-the-row": min(ends, default=-1),
+        "counted-from-1": right + 1 if right >= 0 else -1,
+        "counted-from-1 2": right + 1,
+        "mean": means.index(True) + ticks - 1 if any(means) else -1,
+        "nan-is-infinity": at(np.nan_to_num(score, nan=np.inf) > limit, ticks),
+        "nan-at-once": min([*lost[:1], *([soon] if soon >= 0 else [])], default=-1),
         "last-alarm": max(np.flatnonzero(row_of), default=-1),
     }
 

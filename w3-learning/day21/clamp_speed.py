@@ -2,28 +2,9 @@
 
 import numpy as np
 
-from labkit.judge import HeldOut, Row, Vector
+from labkit.judge import Row, Vector
 
-
-def at_rest(rng):
-    """Yield velocities of 0, of which a direction cannot be computed."""
-    yield np.zeros(2), 0.25
-    yield np.zeros(3), 0.0
-
-
-row = Row(
-    Vector((None,), "m/s"),
-    copies=False,
-    held_out=[
-        HeldOut(
-            "at-rest",
-            "Your function is right for a velocity that is not 0. For the velocity 0 "
-            "it divides by 0. Divide by the speed only if the speed is above the "
-            "limit.",
-            at_rest,
-        ),
-    ],
-)
+row = Row(Vector((None,), "m/s"), copies=False)
 
 
 @row.inputs
@@ -33,6 +14,7 @@ def _(rng):
     yield np.array([-0.3, 0.0]), 0.2
     yield np.array([0.2, 0.0]), 0.2  # just at the limit
     yield np.array([0.1, 0.2]), 0.0
+    yield np.zeros(2), 0.25  # without a direction
     for n in (1, 2, 2, 3, 3, 7):
         yield rng.numbers(-0.5, 0.5, n), float(rng.numbers(0.05, 0.6))
 
@@ -43,11 +25,13 @@ row.cases(
 )
 
 
-@row.wrongs
+@row.wrongs(hidden={"squared-speed": "its limit is 1, which is its own square"})
 def _(v, limit):
     """per-axis: your code clamps each entry by itself, which changes the direction.
       Multiply all entries by the same factor
     always-full: your code also speeds up a velocity that is slow enough. Return a
+      velocity whose norm is at most the limit as it is
+    always-full 2: your code also speeds up a velocity that is slow enough. Return a
       velocity whose norm is at most the limit as it is
     stops: your function returns 0 for a velocity that is too fast. Return the velocity
       with the same direction and the norm `limit` instead
@@ -57,6 +41,12 @@ def _(v, limit):
       Compare the Euclidean norm of the velocity with the limit
     not-reduced: your code multiplies a velocity that is too fast by the limit. Multiply
       it by limit / speed, so that its norm becomes the limit
+    at-rest: your code divides the velocity 0 by its norm. Divide by the norm only if it
+      is above the limit
+    squared-speed: your code compares the squared norm with the limit. Compare the norm
+      with the limit, because the limit is a speed
+    first-two: your code uses only the first two entries for the norm. Use all entries,
+      because a velocity may have three of them
     """
     speed = np.linalg.norm(v)
     entry = np.max(np.abs(v))
@@ -64,10 +54,14 @@ def _(v, limit):
     return {
         "per-axis": np.clip(v, -limit, limit),
         "always-full": v * limit / speed,
+        "always-full 2": v * limit / speed if speed else v,
         "stops": v * (speed <= limit),
         "largest": v * min(1, limit / entry),
         "city-block": v * min(1, limit / total),
         "not-reduced": v if speed <= limit else v * limit,
+        "at-rest": v / speed * min(speed, limit),
+        "squared-speed": v if speed**2 <= limit else v * limit / speed,
+        "first-two": v * min(1, limit / np.linalg.norm(v[:2])) if speed else v,
     }
 
 

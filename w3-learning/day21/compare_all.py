@@ -15,6 +15,9 @@ row = Row(
 )
 
 
+SORTED = "its p-values are in ascending order"
+
+
 def policies(rng, n, *better):
     """Return successes of a first policy, and of others that it beats by some starts.
 
@@ -38,6 +41,10 @@ def _(rng):
     yield (policies(rng, 30, (7, 0), (6, 0)),)  # .0156 and .0313
     yield (policies(rng, 30, (6, 0), (6, 0)),)
     yield (policies(rng, 30, (0, 8), (3, 3)),)
+    yield (policies(rng, 20, (0, 9)),)
+    yield (policies(rng, 40, (8, 1)),)  # .039: below .05, above .05 / 2
+    yield (policies(rng, 40, (9, 0), (8, 0), (8, 1)),)  # Holm finds all of them
+    yield (policies(rng, 40, (10, 2), (8, 0), (9, 1)),)  # .0386, .0078 and .0215
     yield (policies(rng, 30, (1, 9), (0, 6), (5, 1)),)
     yield (policies(rng, 40, (12, 1), (10, 2), (9, 2), (1, 7)),)
     yield (rng.random((2, 9)) < 0.5,)
@@ -68,6 +75,12 @@ def pairs(first, others):
     return np.array([sign_test(first, other) for other in others])
 
 
+def tosses(wins, losses):
+    """Return the p-value of the sign test of some wins and losses."""
+    won = np.arange(wins + losses) < wins
+    return sign_test(won, ~won)
+
+
 def unpaired(a, b):
     """Return a p-value as if the starts were not the same (the normal distribution)."""
     from math import erfc, sqrt
@@ -77,12 +90,22 @@ def unpaired(a, b):
     return erfc(abs(a.mean() - b.mean()) / spread / sqrt(2)) if spread else 1.0
 
 
-@row.wrongs
+@row.wrongs(hidden=dict.fromkeys(("mask-sorted", "sorted"), SORTED))
 def _(success):
     """uncorrected: your code compares each p-value with 0.05. With several comparisons
       a false difference is more likely, so use Holm's method
     bonferroni: your code compares each p-value with 0.05 / (k - 1). Only the smallest
       p-value has this limit in Holm's method
+    bonferroni 2: your code compares each p-value with 0.05 / k. Holm's method has k - 1
+      comparisons, and only the smallest p-value has the limit 0.05 / (k - 1)
+    false-discovery: your code uses the method of Benjamini and Hochberg, which limits
+      the fraction of false differences. Holm's method permits fewer of them
+    smallest-only: your code compares only the smallest p-value with its limit. Continue
+      with the next one until a p-value is above its limit
+    by-place: your code assigns Holm's limits in the order of the rows. The smallest
+      p-value has the smallest limit, so sort the p-values first
+    mask-sorted: your mask of differences is in the order of the p-values. Return it in
+      the order of the policies
     against-the-next: your code compares each policy with the next one. Compare the
       first policy with each of the others
     with-itself: your code gives Holm's method also the comparison of the first policy
@@ -91,6 +114,26 @@ def _(success):
       The policy to compare with is the first one, chosen before the test
     unpaired: your code compares the success rates as if the starts were not the same.
       Use the sign test, because both policies have the same starts
+    against-the-last: your code compares the last policy with the others. Compare the
+      first policy with each of the others
+    does-not-stop: your code continues after the first p-value that is above its limit.
+      Holm's method finds no further difference from there on
+    adjusted: your p-values are multiplied by the number of comparisons. Return the
+      p-values of the sign test, because Holm's method divides the limits instead
+    only-if-better: your code reports only differences in which the first policy is
+      better. A policy that is significantly better than the first is different as well
+    all-successes: your code uses all successes of both policies. The sign test uses
+      only the starts on which exactly one of the two policies succeeds
+    one-sided: your p-values are one-sided. Use the two-sided sign test, because the
+      first policy may be worse, too
+    own-row: your function also compares the first policy with itself, so it returns k
+      entries. Return only the k - 1 comparisons with the others
+    columns: your code treats each column of `success` as a policy. Each row is a
+      policy, and each column is a start
+    sorted: your function returns the p-values in ascending order. Return them in the
+      order of the policies
+    every-pair: your function compares all pairs of policies. Return only the k - 1
+      comparisons of the first policy with the others
     all-pairs: your code corrects for all pairs of policies. Only the k - 1 comparisons
       with the first policy are made
     """
@@ -104,13 +147,37 @@ def _(success):
         for i in range(len(success))
         for j in range(i + 1, len(success))
     ]
+    of_columns = pairs(success[:, 0], success.T[1:])
+    last = pairs(success[-1], success[:-1])
+    rank = np.argsort(np.argsort(p, kind="stable"), kind="stable")
+    multiplied = p * (len(p) - rank)
+    fewest = p <= 0.05 * (rank + 1) / len(p)  # by Benjamini and Hochberg
+    adjusted = [np.max(multiplied[rank <= r]) for r in rank]
+    better = success[0].sum() > success[1:].sum(axis=1)
+    sums = success.sum(axis=1)
+    tossed = np.array([tosses(sums[0], some) for some in sums[1:]])
     return {
         "uncorrected": (p, p <= 0.05),
         "bonferroni": (p, p <= 0.05 / len(p)),
+        "bonferroni 2": (p, p <= 0.05 / len(success)),
+        "false-discovery": (p, np.array([np.any(fewest[rank >= r]) for r in rank])),
+        "smallest-only": (p, (rank == 0) & holm(p)),
+        "by-place": (p, p <= 0.05 / np.arange(len(p), 0, -1)),
+        "mask-sorted": (p, holm(np.sort(p))),
         "against-the-next": (following, holm(following)),
         "with-itself": (p, holm(np.append(1.0, p))[1:]),
         "against-the-best": (of_best, holm(of_best)),
         "unpaired": (apart, holm(apart)),
+        "against-the-last": (last, holm(last)),
+        "does-not-stop": (p, multiplied <= 0.05),
+        "adjusted": (np.minimum(adjusted, 1), holm(p)),
+        "only-if-better": (p, holm(p) & better),
+        "all-successes": (tossed, holm(tossed)),
+        "one-sided": (p / 2, holm(p / 2)),
+        "own-row": (np.append(1, p), holm(np.append(1, p))),
+        "columns": (of_columns, holm(of_columns)),
+        "sorted": (np.sort(p), holm(np.sort(p))),
+        "every-pair": (np.array(every), holm(every)),
         "all-pairs": (p, holm(every)[: len(p)]),
     }
 

@@ -19,6 +19,7 @@ def _(rng):
         yield rng.numbers(0, 1, n), share
     yield np.zeros(0), 0.05
     yield rng.numbers(0, 1, 5), 0.0
+    yield np.array([0.4, 0.9, 0.4, 0.1, 0.4, 0.7, 0.4, 0.4]), 0.42  # equal scores
     yield rng.numbers(0, 1, 1), 0.7
     for n, share in ((5, 0.3), (5, 0.8), (11, 0.13), (24, 0.21), (60, 0.05), (6, 0.12)):
         yield rng.numbers(-2, 2, n), share
@@ -41,14 +42,26 @@ def _(rng):
     yield rng.numbers(0, 1, 8), 0.33
 
 
-@row.wrongs
+@row.wrongs(
+    hidden={
+        "interpolated 2": "hardly any of its scores is between the two scores",
+        "nan-if-few": "no score is above NaN, as none is above infinity",
+        "without-ties": "all of its scores are different",
+    }
+)
 def _(scores, share):
     """quantile: your function interpolates a quantile of the n scores, as np.quantile
       does. Return the k-th smallest score, k = ceil((n + 1) (1 - share))
+    quantile 2: your function rounds a quantile of the n scores up to a score. Return
+      the k-th smallest score, k = ceil((n + 1) (1 - share))
     clamped: your function returns the largest score if there are too few scores. Return
       infinity, because no smaller limit has the guarantee
+    clamped 2: your function returns the largest score if there are too few scores.
+      Return infinity, because no smaller limit has the guarantee
     floor: your code rounds the rank down. Round it up, so that a new score exceeds the
       limit with a probability of at most `share`
+    floor 2: your code rounds the rank down. Round it up, so that a new score exceeds
+      the limit with a probability of at most `share`
     n-scores: your rank is ceil(n (1 - share)). Use n + 1, because the new score has one
       of n + 1 ranks
     largest: your function returns the largest score. Return the k-th smallest score, k
@@ -57,6 +70,21 @@ def _(scores, share):
       this fraction of new scores should be above the limit, so use 1 - share
     counted-from-0: your limit is one rank too high. The k-th smallest of the sorted
       scores has the index k - 1
+    floor-plus-1: your code rounds the rank down and adds 1. This is one rank too high
+      if (n + 1) (1 - share) is a whole number, so round up instead
+    interpolated: your code interpolates between two scores, and returns the largest
+      score if there are too few scores. Return the k-th smallest score itself, and
+      infinity if k is above n
+    interpolated 2: your rank is right, but your code interpolates between two scores.
+      Return the k-th smallest score itself
+    nan-if-few: your function returns NaN if there are too few scores. Return infinity,
+      because every comparison with NaN is False
+    nan-if-few 2: your function returns -infinity if there are too few scores. Return
+      +infinity, which no score exceeds
+    infinite-too-soon: your code also returns infinity if k is n. The k-th smallest
+      score is then the largest score, so return infinity only if k is above n
+    without-ties: your code removes equal scores. Keep all n scores, because each of
+      them has a rank of its own
     gaussian: your limit assumes that the scores have a normal distribution. Use the
       rank of the scores, which needs no assumption about the distribution
     """
@@ -70,10 +98,25 @@ def _(scores, share):
     k = ceil(exact)
     largest = np.max(scores, initial=-np.inf)
     normal = NormalDist().inv_cdf(1 - share) if 0 < share < 1 else np.inf
+    level = min(1, k / n) if n else 1
+    between = np.quantile(scores, level) if n else np.inf
+    unique = np.unique(scores)
     return {
         "quantile": np.quantile(scores, 1 - share) if n else np.nan,
+        "quantile 2": np.quantile(scores, 1 - share, method="higher") if n else np.inf,
         "clamped": min(ranked_at(k), largest),
+        "clamped 2": ranked_at(min(k, n)),
         "floor": ranked_at(floor(exact)),
+        "floor 2": ranked_at(floor(exact) or n + 1),
+        "floor-plus-1": ranked_at(floor(exact) + 1),
+        "interpolated": between,
+        "interpolated 2": between if k <= n else np.inf,
+        "nan-if-few": ranked_at(k) if k <= n else np.nan,
+        "nan-if-few 2": ranked_at(k) if k <= n else -np.inf,
+        "infinite-too-soon": ranked_at(k) if k < n else np.inf,
+        "without-ties": np.append(unique, np.inf)[
+            min(ceil((len(unique) + 1) * (1 - share)), len(unique) + 1) - 1
+        ],
         "n-scores": ranked_at(ceil(n * (1 - share))),
         "largest": largest,
         "share-of-the-small": ranked_at(ceil((n + 1) * share)),

@@ -19,8 +19,15 @@ def _(rng):
         ((-0.26, 0.2), (-0.3, -0.1), 0.5),
         ((0.25, 0.0), (-9.0, 0.1), 0.1),  # through the whole box
         ((0.2, 0.3), (0.1, -0.1), 0.2),  # on the wall
+        ((0.21, 0.1), (-0.3, 0.1), 0.1),  # outside, and inside after dt
+        ((0.1, -0.31), (-0.2, 0.25), 0.2),
+        ((0.1, 0.32), (0.05, 0.3), 0.1),  # the other entry, further out
+        ((-0.1, -0.35), (0.1, 7.5), 0.1),  # and through the whole box
     ):
         yield np.array(p), np.array(v), low, high, dt
+    low, high = np.array([-0.2, -0.3, -0.1]), np.array([0.2, 0.3, 0.4])
+    yield np.array([0.1, 0.0, 0.38]), np.array([0.1, -0.1, 0.5]), low, high, 0.1
+    yield np.array([0.0, 0.1, -0.08]), np.array([0.3, -0.1, -0.5]), low, high, 0.1
     for n in (1, 2, 2, 3, 3):
         yield inside(rng, n)
 
@@ -52,13 +59,23 @@ def _(rng):
         yield p, v, low, high, dt
 
 
-@row.wrongs
+@row.wrongs(
+    hidden={
+        "fixed-duration": "a tick of the lab is 0.1 s",
+        "first-two": "the lab's boxes are in the plane",
+        "symmetric": "the lab's boxes are symmetric",
+    }
+)
 def _(p, v, low, high, dt):
     """stops-all: your code sets the whole velocity to 0 if one entry would leave the
+      box. Limit each entry by itself, so that the hand can slide along a wall
+    stops-all 2: your code sets the whole velocity to 0 if one entry would leave the
       box. Limit each entry by itself, so that the hand can slide along a wall
     shortened: your code multiplies the whole velocity by one factor, so a wall stops
       the motion along it as well. Limit each entry by itself
     axis-stops: your code sets an entry to 0 if the next position would be outside.
+      Limit this entry so that the hand just reaches the wall
+    axis-stops 2: your code sets an entry to 0 if the next position would be outside.
       Limit this entry so that the hand just reaches the wall
     jumps-back: your velocity brings a position outside of the box to the wall in one
       step. Leave an entry that leads back as it is, so that the hand does not jump
@@ -66,25 +83,71 @@ def _(p, v, low, high, dt):
       each distance by dt
     only-if-outside: your code limits the velocity only if the position is already
       outside. Limit the velocity so that the next position, p + dt v, is not outside
+    only-if-outside 2: your code limits the velocity only if the position is already
+      outside. Limit the velocity so that the next position, p + dt v, is not outside
     may-not-return: your velocity is 0 at every position outside of the box. Keep an
       entry that leads back to the box
     position: your function returns the next position. Return the velocity instead
+    position 2: your function returns the next position. Return the velocity instead
+    no-position: your bounds of the velocity omit the position. The distance
+      to a wall is the wall minus the position
+    no-position 2: your bounds of the velocity omit the position. The distance
+      to a wall is the wall minus the position
+    fixed-duration: your code uses a fixed duration of 0.1 s. Use `dt`
+    through: your code does not limit a velocity that leads back from outside. Limit it
+      as well, because it can lead through the whole box to the other side
+    upper-only: your code uses only the upper walls. Limit the velocity at the lower
+      walls as well
+    lower-only: your code uses only the lower walls. Limit the velocity at the upper
+      walls as well
+    first-walls: your code uses the walls of the first entry for all entries. Each entry
+      has its own walls
+    first-two: your code limits only the first two entries. A position may have three
+      entries, so limit all of them
+    symmetric: your code uses `-high` as the lower wall. Use `low`, because the box need
+      not be symmetric
+    min-and-max: your code exchanges the minimum and the maximum with 0. The lower bound
+      of the velocity is at most 0, and the upper bound is at least 0
+    no-way-back: your code stops an entry that leads back from outside, and keeps one
+      that leads further out. It should be the other way round
     """
     after = p + dt * v
     there = np.clip(after, low, high)
     out = (p < low) | (p > high)
-    right = np.clip(v, np.minimum((low - p) / dt, 0), np.maximum((high - p) / dt, 0))
+    down, up = (low - p) / dt, (high - p) / dt
+    right = np.clip(v, np.minimum(down, 0), np.maximum(up, 0))
     worst = np.min(np.divide(right, v, out=np.ones_like(v), where=v != 0))
     leads_out = ((p > high) & (v > 0)) | ((p < low) & (v < 0))
+    at_a_wall = ((p >= high) & (v > 0)) | ((p <= low) & (v < 0))
+    outwards = np.where(p > high, np.maximum(v, 0), np.minimum(v, 0))
     return {
         "stops-all": v * np.all(right == v),
+        "stops-all 2": v * np.all(there == after),
         "shortened": worst * v,
         "axis-stops": v * (right == v),
+        "axis-stops 2": v * (there == after),
         "jumps-back": (there - p) / dt,
         "dt-forgotten": np.clip(v, np.minimum(low - p, 0), np.maximum(high - p, 0)),
         "only-if-outside": v * ~leads_out,
+        "only-if-outside 2": v * ~at_a_wall,
         "may-not-return": right * ~out,
         "position": p + dt * right,
+        "position 2": there,
+        "no-position": np.clip(v, low / dt, high / dt),
+        "no-position 2": np.clip(v, np.minimum(low / dt, 0), np.maximum(high / dt, 0)),
+        "fixed-duration": np.clip(
+            v, np.minimum((low - p) / 0.1, 0), np.maximum((high - p) / 0.1, 0)
+        ),
+        "through": np.where(out, v * ~leads_out, (there - p) / dt),
+        "upper-only": np.minimum(v, np.maximum(up, 0)),
+        "lower-only": np.maximum(v, np.minimum(down, 0)),
+        "first-walls": np.clip(
+            v, np.minimum((low[0] - p) / dt, 0), np.maximum((high[0] - p) / dt, 0)
+        ),
+        "first-two": np.append(right[:2], v[2:]),
+        "symmetric": np.clip(v, np.minimum((-high - p) / dt, 0), np.maximum(up, 0)),
+        "min-and-max": np.clip(v, np.maximum(down, 0), np.minimum(up, 0)),
+        "no-way-back": np.where(out, outwards, right),
     }
 
 

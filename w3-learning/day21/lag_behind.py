@@ -27,10 +27,16 @@ def _(v, stiffness, inertia):
       Use D = 2 sqrt(K Lambda)
     force: your function returns the force of the damper. Divide it by the stiffness to
       obtain the extension of the spring
+    feedforward: your function returns 0, which is the lag with feedforward velocity.
+      Without it, the spring balances the force of the damper
+    energy: your code equates the kinetic energy of the hand with the energy of the
+      spring. In the steady state the spring balances the force of the damper
     """
     return {
         "half": v * np.sqrt(inertia / stiffness),
         "force": 2 * v * np.sqrt(inertia * stiffness),
+        "feedforward": 0 * v,
+        "energy": abs(v) * np.sqrt(inertia / stiffness),
     }
 
 

@@ -56,6 +56,14 @@ def _(plan, drawn, now):
       row is the action for the tick `drawn`
     stops: your function returns 0 if the plan has run out. Return the last row in this
       case
+    first-at-the-end: your code returns the first row if the plan has run out. Return
+      the last row in this case
+    column: your function returns a column of the plan. Return a row, because each row
+      is the action of one tick
+    all-that-is-left: your function returns all rows from the present tick on. Return
+      only the row of the present tick
+    mean-so-far: your function returns the mean of several rows. Return row now - drawn
+      alone, because each row is the action of one tick
     last-always: your function returns the last row for every plan that is late. Return
       row now - drawn, and the last row only if the plan has run out
     """
@@ -65,6 +73,10 @@ def _(plan, drawn, now):
         "wraps": plan[i % K],
         "one-late": plan[min(max(i - 1, 0), K - 1)],
         "stops": plan[i] if i < K else 0 * plan[0],
+        "first-at-the-end": plan[i] if i < K else plan[0],
+        "column": plan[:, min(i, plan.shape[1] - 1)],
+        "all-that-is-left": plan[min(i, K - 1) :],
+        "mean-so-far": np.mean(plan[: i + 1], axis=0),
         "last-always": plan[0 if i == 0 else -1],
     }
 

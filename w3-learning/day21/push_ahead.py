@@ -47,6 +47,7 @@ row.cases(
 @row.rare
 def _(rng):
     yield scene(rng, 0.3, 2, 3)
+    yield scene(rng, 0.3, 2, 1)
     yield scene(rng, 0.063, 2, 3)
 
 
@@ -105,6 +106,45 @@ def ahead(pusher, puck, move, reach):
     return pusher, puck + max(0, overlap) * move / (speed or 1)
 
 
+def old_line(pusher, puck, move, reach):
+    """Return both after a part that uses the line of centres before the move."""
+    apart = puck - pusher
+    near = np.linalg.norm(apart - move) < reach
+    to = pusher + move + apart * reach / np.linalg.norm(apart)
+    return pusher + move, to if near else puck
+
+
+def old_direction(pusher, puck, move, reach):
+    """Return both after a part that moves by the overlap along the line before it."""
+    apart = puck - pusher
+    overlap = max(0, reach - np.linalg.norm(apart - move))
+    return pusher + move, puck + overlap * apart / np.linalg.norm(apart)
+
+
+def squared(pusher, puck, move, reach):
+    """Return both after a part that compares the squared distance with reach."""
+    pusher = pusher + move
+    apart = puck - pusher
+    far = np.linalg.norm(apart)
+    return pusher, pusher + apart * reach / far if far**2 < reach else puck
+
+
+def half(pusher, puck, move, reach):
+    """Return both after a part in which the puck is moved by half of the overlap."""
+    pusher = pusher + move
+    apart = puck - pusher
+    return pusher, puck + max(0, reach / np.linalg.norm(apart) - 1) / 2 * apart
+
+
+def component(pusher, puck, move, reach):
+    """Return both after a part that moves the puck by the pusher's component."""
+    pusher = pusher + move
+    apart = puck - pusher
+    far = np.linalg.norm(apart)
+    forward = max(0, apart @ move) * apart / far**2
+    return pusher, puck + forward * (far < reach)
+
+
 def twice(pusher, puck, move, reach):
     """Return both after a part in which the puck is moved by reach."""
     pusher = pusher + move
@@ -113,7 +153,21 @@ def twice(pusher, puck, move, reach):
     return pusher, puck + apart * reach / far * (far < reach)
 
 
-@row.wrongs
+def from_the_start(obs, actions, dt, steps, reach):
+    """Return the observation if each action begins at the pusher's first position."""
+    end = obs
+    for action in actions:
+        begin = np.concatenate([obs[:2], end[2:]])
+        end = pushed(begin, action[None], dt, steps, reach, whole)
+    return end
+
+
+@row.wrongs(
+    hidden={
+        "old-line 2": "in parts so short both lines are nearly the same",
+        "interleaved": "the actions of its exact push are equal",
+    }
+)
 def _(obs, actions, dt, steps, reach):
     """one-part: your code moves the pusher by a whole action before it moves the puck.
       Divide each action into `steps` parts, because the direction of the push changes
@@ -134,10 +188,36 @@ def _(obs, actions, dt, steps, reach):
     one-action: your code uses only the first action. Apply all actions in turn
     parts-not-shorter: your code moves the pusher by a whole action in each part. Divide
       the move of an action by `steps`
+    old-line: your code uses the line of centres before the pusher's move. Compute the
+      line after the move, because the overlap is along that line
+    old-line 2: your code uses the line of centres before the pusher's move. Compute the
+      line after the move, because the overlap is along that line
+    half-overlap: your code moves the puck by half of the overlap. Move it until the
+      distance is `reach`
+    component: your code moves the puck by the component of the pusher's move along the
+      line of centres. Move it until the distance is `reach`
+    each-from-the-start: your code begins each action at the first position of the
+      pusher. Begin where the action before has ended
+    relative: your puck is relative to the pusher. Return its position in the plane
+    squared: your code compares the squared distance with `reach`. Compare the distance
+      itself
+    puck-first-in-obs: your code treats the first two entries of `obs` as the puck. They
+      are the pusher
+    puck-first-in-obs 2: your code treats the first two entries of `obs` as the puck.
+      They are the pusher
+    interleaved: your code goes through all actions once for each part. Finish all parts
+      of an action before the next action
+    last-contact: your code does not move the puck after the last move of the pusher.
+      Move the puck in each part, also in the last one
     puck-only: your puck is right, but your pusher stays at its start. Return the
       pusher's position after all actions
     """
     given = obs, actions, dt, steps, reach
+    other = np.roll(obs, 2), actions, dt, steps, reach
+    moves = np.tile(actions, (steps, 1))
+    pushes = np.repeat(actions, steps, axis=0)
+    start = pushed(obs, pushes[:-1], dt / steps, 1, reach, whole)
+    last = np.append(dt / steps * pushes[-1], (0, 0)) if len(pushes) else 0
     right = pushed(*given, whole)
     return {
         "one-part": pushed(obs, actions, dt, 1, reach, whole),
@@ -150,6 +230,17 @@ def _(obs, actions, dt, steps, reach):
         "by-the-reach": pushed(*given, twice),
         "one-action": pushed(obs, actions[:1], dt, steps, reach, whole),
         "parts-not-shorter": pushed(obs, actions, dt * steps, steps, reach, whole),
+        "old-line": pushed(*given, old_line),
+        "old-line 2": pushed(*given, old_direction),
+        "half-overlap": pushed(*given, half),
+        "component": pushed(*given, component),
+        "each-from-the-start": from_the_start(*given),
+        "relative": right - np.append((0, 0), right[:2]),
+        "squared": pushed(*given, squared),
+        "puck-first-in-obs": np.roll(pushed(*other, whole), 2),
+        "puck-first-in-obs 2": pushed(*other, whole),
+        "interleaved": pushed(obs, moves, dt / steps, 1, reach, whole),
+        "last-contact": start + last,
         "puck-only": np.concatenate([obs[:2], right[2:]]),
     }
 
