@@ -57,12 +57,13 @@ def _(m1, c1, I1, m2, c2, I2):
       move both inertias
     about-the-first-centre: your code returns the inertia about the first body's centre
       of mass. Return the inertia about the common centre of mass instead
-    distance-of-the-two: your parallel-axis theorem uses the distance between the two
-      centres of mass. Use the distance of each centre of mass from the common centre
+    distance-of-the-two: in the parallel-axis theorem, your code uses the distance
+      between the two centres of mass. Use the distance of each centre of mass from the
+      common centre of mass
     mass-not-in-the-theorem: your code omits the mass of the body in the parallel-axis
       theorem. The theorem adds m ((d . d) E - d d^T), where E is the identity matrix
-    total-mass-for-each: your parallel-axis theorem uses the total mass for each body.
-      Use the mass of the body whose inertia is moved
+    total-mass-for-each: in the parallel-axis theorem, your code uses the total mass for
+      each body. Use the mass of the body whose inertia is moved
     """
     c = centre(m1, c1, m2, c2)
     own = I1 + I2

@@ -33,16 +33,16 @@ def turned(angle, x, y):
 @row.wrongs
 def _(theta, observation):
     """world-axes: your code adds the shift in the world frame. The shift is expressed
-      in the frame of the observed cube, so rotate it by the yaw of the observation
+      in the frame of the observed cube, so rotate it by the yaw of the cube
     turned-with-the-hand: your code rotates the shift by the yaw of the hand. The shift
-      is expressed in the frame of the cube, so rotate it by the yaw of the observation
+      is expressed in the frame of the cube, so rotate it by the yaw of the cube
     clipped-after: your code clamps the action. Clamp theta before you use it
     clipped-below-only: your code clamps theta only at LOW. Clamp it at HIGH too
     clipped-above-only: your code clamps theta only at HIGH. Clamp it at LOW too
     half-clipped: your code clamps only the last three entries of theta. Clamp all
       entries
     shift-forgotten: your code omits the shift given by the first two entries of theta.
-      Rotate this shift by the yaw of the observation, and add it to x and y
+      Rotate this shift by the yaw of the cube, and add it to x and y
     x-shift-only: your code omits the shift along the y axis of the cube, which is the
       second entry of theta. Rotate both components of the shift by the yaw of the
       observation

@@ -103,8 +103,8 @@ def _(finger_position, force, normal, mu, fraction, step):
       slips. Close them if a margin is below `fraction` times mu f_n
     the-other-way: your code reverses the comparison, so the pads close if a margin is
       large. Close them if a margin is smaller than `fraction` times mu f_n
-    closes-to-the-limit: your pads close to the limit at once. Subtract one step per
-      call
+    closes-to-the-limit: your code moves the pads to their closed limit in a single
+      call. Subtract only one `step` from the finger position per call
     a-step-a-contact: your code subtracts one step for each contact that nearly slips.
       Subtract only one step per call
     sum-of-margins: your code compares the sum of the margins with `fraction`. Compare

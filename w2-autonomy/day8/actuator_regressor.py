@@ -56,8 +56,8 @@ for slug, says, blocks in (
                  "sign of qd. Use the sign itself",
      lambda qd, qdd: (qdd, qd, np.tanh(qd / 0.1))),
     ("sign-at-rest",
-     "your dry friction is 1 for a joint at rest. It should be 0, because the sign "
-     "of 0 is 0",
+     "your entry for dry friction is 1 for a joint at rest. It should be 0, because "
+     "the sign of 0 is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd < 0.0, -1.0, 1.0))),
     ("sign-at-rest-negative",
      "your dry friction is -1 for a joint at rest. It should be 0, because the sign "

@@ -67,12 +67,12 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
       with respect to the output h of each hidden layer by 1 - h^2
     slope-squared: your code squares the derivative of tanh. Multiply the gradient with
       respect to the output h of each hidden layer by 1 - h^2 only once
-    slope-1-minus-h: your derivative of tanh is 1 - h, where h is the output of the
-      hidden layer. Use 1 - h^2 instead
+    slope-1-minus-h: your derivative of tanh is 1 - h, where h is the output of a hidden
+      layer. Use 1 - h^2 instead
     slope-logistic: your derivative of tanh is h * (1 - h), which is the derivative of
-      the logistic function. Use 1 - h^2 instead, where h is the output of the hidden
+      the logistic function. Use 1 - h^2 instead, where h is the output of that hidden
       layer
-    slope-of-h: your derivative of tanh is 1 - tanh(h)^2, where h is the output of the
+    slope-of-h: your derivative of tanh is 1 - tanh(h)^2, where h is the output of a
       hidden layer. Use 1 - h^2 instead, because h is already the output of tanh
     slope-of-z: your derivative of tanh is 1 - z^2, where z is the argument of tanh. Use
       1 - h^2 instead, where h = tanh(z) is the output of the hidden layer

@@ -54,8 +54,9 @@ def _(action, episode):
       action only within an episode
     start-from-0: your code includes the first row of each episode and uses 0 as its
       previous action. Omit this row, because it has no previous action
-    counted-as-0: your code sets the change between two episodes to 0, but still
-      includes it in the mean. Omit the pairs of rows from different episodes
+    counted-as-0: your code sets the change from the last row of an episode to the first
+      row of the next to 0, but still includes it in the mean. Exclude each such pair of
+      rows from the mean
     summed-over-columns: your code sums the squared changes over the columns. Take the
       mean over the columns instead, as `mse` does
     mean-of-means: your code computes the mean over each episode, and then averages

@@ -32,9 +32,9 @@ def _(k, decay):
     sum-not-squared: your function returns 1, because it does not square the weights.
       Sum the squares of the weights instead, because the variance of each error is
       multiplied by the square of its weight
-    effective-number: your function returns 1 / sum(w^2) for the weights w. This value
-      is the number of equally weighted plans that leave the same noise. Return the
-      square root of sum(w^2) instead
+    effective-number: your function returns 1 / sum(w^2) for the weights w, which is the
+      effective number of plans. Return the square root of sum(w^2) instead, because
+      this is the standard deviation of the weighted error
     spread-of-the-weights: your function returns the standard deviation of the weights.
       Add the variances of the weighted errors instead, and take the square root of
       their sum

@@ -43,14 +43,15 @@ def _(x, eps, abar, prev, noise):
       also contains x, and its variance is smaller
     as-ddim: your code adds the fresh noise to the result of `ddim_step`. Add it to the
       mean of the Gaussian instead, which is a weighted sum of the clean sample and x
-    alpha-inverted: your code uses prev / abar as alpha, so alpha is above 1. Use abar /
-      prev instead, because the signal becomes weaker from prev to abar
+    alpha-inverted: your code uses prev / abar as alpha, so alpha is greater than 1. Use
+      abar / prev instead, because alpha is the fraction of the signal's power that is
+      left from the level prev to the level abar
     alpha-inverted 2: your code uses prev / abar as alpha in the two weights, so alpha
-      is above 1. Use abar / prev instead, because the signal becomes weaker from prev
-      to abar
+      is greater than 1. Use abar / prev instead, because alpha is the fraction of the
+      signal's power that is left from the level prev to the level abar
     alpha-inverted 3: your code uses prev / abar as alpha and takes the absolute value
-      of the negative variance. Use abar / prev instead, because the signal becomes
-      weaker from prev to abar
+      of the negative variance. Use abar / prev instead, because alpha is the fraction
+      of the signal's power that is left from the level prev to the level abar
     eps-of-one-step: your code subtracts sqrt(1 - alpha) * eps from x. Use the factor (1
       - alpha) / sqrt(1 - abar) instead, because eps is the total noise in x and not
       only the noise of this step

@@ -39,9 +39,9 @@ def _(x, t, means, sigma, weights):
       variance sigma^2
     data-width-forgotten 2: your code uses the variance (1 - t)^2 in the exponent. Use
       t^2 * sigma^2 + (1 - t)^2 instead, which is the variance of x in each mode
-    x-not-deviation: your code multiplies x by covariance / variance, as if x had the
-      mean 0. Multiply x - t * mean by this factor instead, where mean is the mode's
-      mean
+    x-not-deviation: your code multiplies x by covariance / variance, as if the mean of
+      x were 0. Multiply x - t * mu by this factor instead, where mu is the mean of the
+      mode
     distance-so-far: your function returns the mean displacement from the noise to x.
       Return the mean velocity instead, which is the mean of data - noise given x
     division-by-0 2: your code divides by t, which is 0 at the start. Use the formula of

@@ -33,9 +33,9 @@ row.at_least_0(abars="fractions", sigma="a standard deviation", answer="a fracti
     }
 )
 def _(abars, sigma):
-    """width-forgotten: your code uses the vectors (sqrt(abar), sqrt(1 - abar)).
-      Multiply the first component by sigma, so that it is the standard deviation of the
-      signal
+    """width-forgotten: at each level, your code uses the vector (sqrt(abar), sqrt(1 -
+      abar)). Multiply the first entry by sigma, because the standard deviation of the
+      signal is sigma sqrt(abar)
     first-and-last-only: your function returns the cosine of the angle between the first
       and the last direction. Each step multiplies the width by the cosine of its own
       angle, so return the product of these cosines

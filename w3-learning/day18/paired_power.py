@@ -118,8 +118,9 @@ def _(win, lose, n, level):
     equal-numbers: your code assigns the same probability to every possible number of
       differing starts. This number has a binomial distribution with n trials and the
       probability win + lose
-    chosen-from-all: your code chooses the losses from all n starts. Choose the losses
-      from the starts that are not wins, because a start cannot be both a win and a loss
+    chosen-from-all: your binomial coefficient for the losses counts choices from all n
+      starts. Use n minus the number of wins instead, because a start cannot be both a
+      win and a loss
     """
     differ = win + lose
     share = win / differ if differ else 0.0

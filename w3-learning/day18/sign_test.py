@@ -82,8 +82,8 @@ def _(first, second):
       probability instead, because there are two tails
     zero-if-none: your p-value is 0 if the policies differ on no start. In this case
       there is no evidence of a difference, so return 1
-    every-win: your code treats each start on which the policies differ as a win of the
-      first policy. If only the second policy succeeds, the start should be a loss
+    every-win: your code counts each start from which the policies differ as a win for
+      the first policy. If only the second policy succeeds, count the start as a loss
     one-sided: your test is one-sided. An equally uneven split in favour of the other
       policy is as extreme, so add the probabilities of both tails
     first-better: your function returns the probability that the first policy has at

@@ -66,14 +66,14 @@ def _(image, kernel, stride, d):
     """kernel-flipped: your code flips the gradient with respect to the kernel along
       both axes. Entry [a, b] of this gradient should be the sum of d times pixel [a, b]
       of each window
-    image-by-flipped: your gradient with respect to the image is correct for a kernel
-      that is flipped along both axes. Add d[i, j] times the unflipped kernel to the
-      entries of the gradient in the window of output [i, j]. If you correlate d with
-      the kernel instead, flip the kernel first
+    image-by-flipped: your gradient with respect to the image would be correct if the
+      kernel were flipped along both axes. Either add d[i, j] times the kernel to the
+      window of output [i, j], or correlate the padded d with the flipped kernel
     overwritten: your code overwrites the gradient with respect to the image where
       windows overlap. Add the contributions of all windows that contain a pixel instead
     averaged: your code averages the contributions to a pixel that lies in several
-      windows. Add these contributions instead, because each output depends on the pixel
+      windows. Add these contributions instead, because the output of each of these
+      windows depends on the pixel
     divided: your code divides both gradients by the number of outputs. The argument d
       is already the gradient of the loss with respect to the output, so omit this
       division

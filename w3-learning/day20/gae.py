@@ -101,8 +101,8 @@ def _(reward, value, next_value, terminated, ended, gamma, lam):
       Multiply the advantage of the next row by gamma * lam
     gamma-not-in-the-sum: your code multiplies the advantage of the next row by lam
       only. Multiply this advantage by gamma * lam instead
-    stopped-for-all: your code stops the sums of all columns in a row where one episode
-      ends. Use the flag of each column only for this column
+    stopped-for-all: when an episode ends in one column, your code stops the sums of all
+      columns. Apply the flag of each column only to that column
     error-left-out: your code sets the temporal-difference error to 0 in the last step
       of an episode. Keep this error, because the last step also has a reward and a
       value

@@ -122,17 +122,17 @@ def _(logp, old_logp, advantage, clip):
     ratio-inverted: your ratio is exp(old_logp - logp). Use exp(logp - old_logp)
       instead, which is the new probability density divided by the old probability
       density
-    clip-above-only: your code clips the ratio at 1 + clip only. Clip the ratio at 1 -
-      clip as well, because a negative advantage makes the ratio smaller
+    clip-above-only: your code clips the ratio only at 1 + clip. Clip it at 1 - clip as
+      well, because an update with a negative advantage lowers the ratio
     minimum-of-ratios: your code takes the minimum of both ratios before it multiplies
       by the advantage. Multiply both ratios by the advantage first, because a negative
       advantage reverses their order
     minimum-of-ratios 2: in the loss, your code takes the minimum of both ratios before
       it multiplies by the advantage. Multiply both ratios by the advantage first,
       because a negative advantage reverses their order
-    minimum-for-a-negative-advantage: your code limits the ratio to at most 1 - clip
-      where the advantage is negative. Use the maximum of the ratio and 1 - clip there,
-      because a negative factor reverses the order of both terms
+    minimum-for-a-negative-advantage: where the advantage is negative, your code uses
+      the minimum of the ratio and 1 - clip. Use the maximum instead, because the
+      product with a negative advantage is smaller for the larger ratio
     product-clipped: your code limits the product of the ratio and the advantage to the
       range from 1 - clip to 1 + clip. Limit the ratio first, and then multiply by the
       advantage

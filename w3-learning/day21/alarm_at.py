@@ -63,8 +63,9 @@ def counted_down(above):
 
 @row.wrongs(hidden={"nan-is-infinity": "the limit of its check is 0.5"})
 def _(score, limit, ticks):
-    """not-in-a-row: your code counts all ticks above the limit. Set the counter to 0 at
-      each tick that is not above the limit
+    """not-in-a-row: your code counts all scores above the limit. Set the counter to 0
+      at each score that is not above the limit, because only consecutive scores should
+      count
     first-above: your function returns the first tick above the limit. Wait until
       `ticks` of them are in a row, so that one noisy tick raises no alarm
     start-of-the-row: your function returns the first of the ticks in a row. Return the
@@ -73,10 +74,10 @@ def _(score, limit, ticks):
       limit, so that a lost measurement raises an alarm
     nan-is-skipped: your code ignores ticks with NaN. Treat NaN as above the limit, so
       that a lost measurement raises an alarm
-    at-the-limit: your code treats a score that is equal to the limit as above it. A
-      score is above the limit only if it is larger
-    one-more: your code waits for one tick more. Return the tick at which `ticks` scores
-      in a row were above the limit
+    at-the-limit: your code treats a score equal to the limit as above the limit. Only a
+      larger score is above it
+    one-more: your alarm is one tick late. Return the index of the last of the first
+      `ticks` consecutive scores above the limit
     end-if-none: your function returns the number of ticks if there is no alarm. Return
       -1 in this case
     zero-if-none: your function returns 0 if there is no alarm. Return -1 in this case,

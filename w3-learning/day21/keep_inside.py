@@ -67,10 +67,12 @@ def _(rng):
     }
 )
 def _(p, v, low, high, dt):
-    """stops-all: your code sets the whole velocity to 0 if one entry would leave the
-      box. Limit each entry by itself, so that the hand can slide along a wall
-    stops-all 2: your code sets the whole velocity to 0 if one entry would leave the
-      box. Limit each entry by itself, so that the hand can slide along a wall
+    """stops-all: your code sets the whole velocity to 0 if the next position leaves the
+      box along one axis. Limit each entry of the velocity separately, so that the hand
+      can slide along a wall
+    stops-all 2: your code sets the whole velocity to 0 if the next position leaves the
+      box along one axis. Limit each entry of the velocity separately, so that the hand
+      can slide along a wall
     shortened: your code multiplies the whole velocity by one factor, so a wall stops
       the motion along it as well. Limit each entry by itself
     axis-stops: your code sets an entry to 0 if the next position would be outside.

@@ -52,8 +52,8 @@ def _(plan, drawn, now):
       tick `drawn`. Return row now - drawn
     wraps: your code begins with the first row again if the plan has run out. Return the
       last row in this case
-    one-late: your code treats the first row as the action for tick drawn + 1. The first
-      row is the action for the tick `drawn`
+    one-late: your code treats the first row as the action for the tick `drawn` + 1. The
+      first row is the action for the tick `drawn`
     stops: your function returns 0 if the plan has run out. Return the last row in this
       case
     first-at-the-end: your code returns the first row if the plan has run out. Return

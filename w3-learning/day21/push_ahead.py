@@ -175,8 +175,8 @@ def _(obs, actions, dt, steps, reach):
       Without friction the puck moves along the line of centres
     along-the-action: your code moves the puck in the direction of the action. Without
       friction the puck moves along the line of centres
-    pusher-stops: your code moves the pusher back instead of the puck. The pusher moves
-      as commanded, so move the puck
+    pusher-stops: if the puck is nearer than `reach`, your code moves the pusher away
+      from the puck. The pusher moves as commanded, so move the puck
     half-each: your code divides the overlap between both bodies. The pusher moves as
       commanded, so move only the puck
     pulls: your code moves the puck to the distance `reach` even if it is farther away.

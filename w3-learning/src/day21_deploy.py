@@ -398,7 +398,7 @@ def late_plans(lab: Lab, policy, start: np.ndarray) -> None:
 def check_guard(lab: Lab) -> None:
     """Compare the limit with all ranks of a new score, and the alarm with a search."""
     off = []
-    for n, share in ((5, 0.2), (5, 0.34), (4, 0.5), (3, 0.1)):
+    for n, share in ((5, 0.2), (5, 0.34), (3, 0.25), (3, 0.1)):
         above = 0.0
         for new in range(n + 1):  # the rank of the new score
             known = np.delete(np.arange(n + 1.0), new)
