@@ -26,7 +26,7 @@ row.cases(
 )
 
 
-@row.wrongs
+@row.wrongs(hidden={"rounded-to-0": "no column of the demonstrations is constant"})
 def _(x):
     """n-minus-one: your code computes the standard deviation with the divisor n - 1.
       Divide by n instead, so that normalised columns have a standard deviation of

@@ -276,11 +276,11 @@ def check_data(lab: Lab, rng: np.random.Generator) -> None:
     """Check that no row and no episode is lost, and the weights of episodes."""
     of = np.array([5, 0, 5, 2, 2, 5, 2, 2])
     first = rng.normal(size=(8, 4)), rng.normal(size=(8, 2)), of
-    second = rng.normal(size=(3, 4)), rng.normal(size=(3, 2)), np.array([0, 0, 1])
+    second = rng.normal(size=(3, 4)), rng.normal(size=(3, 2)), np.array([7, 7, 9])
     seen, done, both = aggregate(first, second)
     lab.check("observations of both", seen - np.vstack([first[0], second[0]]))
     lab.check("actions of both", done - np.vstack([first[1], second[1]]))
-    lab.check("episodes of both", both - np.append(of, [6, 6, 7]))
+    lab.check("episodes of both", both - np.append(of, [13, 13, 15]))
     weight = episode_weights(of)
     totals = np.bincount(of, weight)[[0, 2, 5]]
     off = [*(totals - 8 / 3), weight.mean() - 1]
