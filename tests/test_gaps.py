@@ -43,8 +43,9 @@ def test_an_entry_is_printed_if_the_machine_names_it_when_all_these_are_deleted(
         return row.truth(theta**5 - 0.7 * theta**3 + 0.1)
 
     (one,) = told_by_machine(day, row)
-    assert (one.slug, one.source, one.shown) == ("twice", "argument", True)
-    assert "`theta` were twice as large" in one.machine
+    assert (one.slug, one.source, one.shown) == ("twice", "slip", True)
+    assert "twice as large as it should be" in one.machine
+    assert "`2 * theta`" in one.machine  # as it stands in the entry's own text
 
 
 def test_an_entrys_text_is_that_of_a_students_function():

@@ -134,6 +134,12 @@ def test_a_fenced_text_for_a_terminal_can_be_copied_into_a_cell():
     assert guide.plain(block) == block.text, "it waits, and a cell would wait with it"
 
 
+@pytest.mark.parametrize("day", all_days(), ids=lambda day: f"day {day.number}")
+def test_each_picture_of_a_day_follows_a_step_that_the_notebook_runs(day):
+    run = set(re.findall(r"run\(step=(\d+)\)", build.build(day, complete=True)))
+    assert build.extras(day).keys() <= run | {"end"}
+
+
 def test_a_fold_with_nothing_but_an_output_is_a_step():
     output = "<!-- run: python src/a.py --no-log | step 4 -->\n```text\n4\n```\n"
     fold = "<details>\n<summary>The output</summary>\n\n{}<!-- end -->\n\n{}</details>"
