@@ -84,6 +84,8 @@ def passing(day):
     return found
 
 
+# At night: CPython 3.11 sometimes never returns from a traced call that raised.
+@pytest.mark.soak
 @pytest.mark.parametrize("day", days(), ids=lambda day: f"day{day.number}")
 def test_no_function_of_the_days_before_passes_a_task(day):
     assert passing(day) <= ALLOWED
