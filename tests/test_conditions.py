@@ -4,14 +4,13 @@ The functions are wrong in a part of the calls alone, or are those of a day's ca
 whose names are not looked for here.
 """
 
-import contextlib
 import functools
 import itertools
 import re
-import signal
 
 import numpy as np
 import pytest
+from cpu_limit import ended_late
 
 from conftest import days
 from labkit.base.exchange import Exchange, Question, Reply
@@ -32,30 +31,10 @@ SECONDS = 2.0  # of the processor, for one call
 pytestmark = pytest.mark.kit
 
 
-@contextlib.contextmanager
-def ended_late():
-    """End a call that takes too long, as the sandbox does: a wrong loop may be endless.
-
-    Raises:
-        TimeoutError: it has.
-    """
-
-    def end(*_):
-        raise TimeoutError
-
-    before = signal.signal(signal.SIGVTALRM, end)
-    signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
-        signal.signal(signal.SIGVTALRM, before)
-
-
 def reply(function, args):
     """Return the reply of a function, whose answer travels as a student's does."""
     try:
-        with ended_late(), np.errstate(all="ignore"):
+        with ended_late(SECONDS), np.errstate(all="ignore"):
             value = function(*map(own, map(as_plain, args)))
         value = wire.unpack_value(wire.pack_value(value))
     except Exception as error:
