@@ -30,7 +30,7 @@ def told(ask, value):
         (np.eye(3), "shape", "(3, 3)"),
         (np.array("T"), "not-numbers", "real numbers"),
         (np.eye(4) * 1j, "not-numbers", "complex"),
-        ((np.eye(3), np.zeros(3)), "shape", "(3, 3) and (3,)"),
+        ((np.eye(3), np.zeros(3)), "shape", "a tuple of 2 results; expected"),
         (np.full((4, 4), np.nan), "not-finite", "NaN"),
         (np.zeros((4, 4)), "all-zeros", "never fill it"),
         (np.eye(4), "always-the-identity", "identity"),

@@ -126,7 +126,7 @@ MEAN, COVARIANCE = Vector((2,), called="the mean"), Covariance((2, 2), called="P
         ((MEAN, COVARIANCE), (None, np.eye(2)),
          "Your first result, the mean, is None; expected a vector of 2 numbers."),
         ((MEAN, COVARIANCE), (1j * np.zeros(2), np.eye(2)),
-         "Your first result, the mean, is an array of dtype complex128; expected real "
+         "Your first result, the mean, is an array of complex numbers; expected real "
          "numbers (a vector of 2 numbers)."),
         ((Count(), (Mask((2,)), MEAN)), (1, (np.zeros(2, bool), [[1, 2], [3]])),
          "Your result [1][1], the mean, is a list whose parts have the shapes (2,) and "

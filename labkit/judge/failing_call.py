@@ -71,7 +71,7 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
 def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | None:
     for one in exchanges:
         if one.reply and (one.reply.kind or one.reply.value is None):
-            what = "stops" if one.reply.kind else "returns nothing"
+            what = "stopped with an error" if one.reply.kind else "returned None"
             says = f"{typed(one.question, names)} {what}."
             whole = _given(one.question, names)
             return Failing(says, whole, None, Example(one.question))
@@ -105,7 +105,7 @@ def _misfitting(ask: Ask, value: Any) -> tuple[str, str]:
 
 def _shape(value: Any) -> str:
     try:
-        return f"shape {np.shape(value)}"
+        return f"shape {np.shape(value)}" if np.shape(value) else "a single number"
     except ValueError:
         return "parts of different shapes"
 

@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from labkit.base.text import count
 from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import (
     MATCHES,
@@ -35,6 +36,8 @@ ROUNDED_AWAY = 1e12  # rounding divided by nothing: its digits are the processor
 DUST = 1e-9  # in units of the scale: what rounding leaves of a right answer
 DIVERGES = 1e9  # times the right answer: how far off it is says nothing
 RIGHT = 1e-6  # and those that differ by less are called right
+# Of arrays that hold no real numbers, by the kind of their dtype.
+OTHERS = {"U": "strings", "S": "bytes", "O": "objects", "c": "complex numbers"}
 OF_UNITS = (1e3, 1e-3)  # factors that a unit with another prefix has
 
 
@@ -107,7 +110,8 @@ class Kind:
                 says = f"Your function returns {_shapes(value)}"
                 return Finding("shape", f"{says}; expected {self.expected}.")
             if array.dtype.kind not in "fiub":
-                says = f"Your function returns an array of dtype {array.dtype}; "
+                words = OTHERS.get(array.dtype.kind, f"dtype {array.dtype}")
+                says = f"Your function returns an array of {words}; "
                 says += f"expected real numbers ({self.expected})."
                 return Finding("not-numbers", says)
             if not self.fits(array.shape):
@@ -227,6 +231,8 @@ class Kind:
 
 def _shapes(value: Any) -> str:
     """Return what is in a list or tuple whose parts make no one array."""
+    if isinstance(value, tuple):
+        return f"a tuple of {count(len(value), 'result')}"
     try:
         shapes = listed([str(np.shape(part)) for part in value])
     except (TypeError, ValueError):  # a part is no array either

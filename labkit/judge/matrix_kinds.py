@@ -158,7 +158,7 @@ class Jacobian(Matrix):
             )
             says += "wrong."
         else:
-            says = "All columns are wrong." if len(bad) == self.shape[1] else ""
+            says = ""
         if half:
             says += f" Only the {half} rows are wrong."
         says += f" {say_error(self.apart(S, T))}"

@@ -102,7 +102,7 @@ class Points(Kind):
             return Finding(f"{off}-off", f"{says} {say_error(words[wrong])}")
         pairs = zip(words, self.names, strict=False)
         each = listed([f"{mm} for the {name}" for mm, name in pairs])
-        every = "Both" if len(words) == 2 else "All"
+        every = "Both vectors" if len(words) == 2 else "All points"
         return Finding("both-off", f"{every} are wrong. {say_error(each)}")
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102

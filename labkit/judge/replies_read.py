@@ -51,7 +51,7 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
             says = f"{function} did not return: {reply.error}."
         case "unsendable":
             slug = "not-an-array"
-            says = f"{function}: {reply.error}."
+            says = f"Your `{function}` {reply.error.removeprefix('it ')}."
         case "huge":
             slug = "huge-numbers"
             says = f"I{reply.error[1:]}, far larger than any right "

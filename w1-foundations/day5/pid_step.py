@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Row, Vector, rounded
-from labkit.judge.answers import in_calls
+from labkit.judge.answers import ERROR, in_calls, of_result
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 
@@ -28,7 +28,10 @@ def which_answer(case: Case) -> Finding:
     if all(bad):
         rest = "Both of your results are wrong. Look at the integral first."
     often = f"Your {NAMES[at]} is wrong {in_calls(int(wrong[at].sum()), len(S))}."
-    says = f"{rest} {often} {kind.what_is_wrong(S, T).message}"
+    what = kind.what_is_wrong(S, T).message
+    if not what.startswith(ERROR):
+        what = of_result(what, f"your {NAMES[at]}")
+    says = f"{rest} {often} {what}"
     return Finding(f"{NAMES[at]}-wrong", says)
 
 
