@@ -101,6 +101,10 @@ def test_only_is_said_where_every_other_call_is_right():
     row.cases(bands)
     wrong = told(row, lambda x: 99.0 if 3 <= x < 6 else x / 2 if x < 0 else x)
     assert wrong == "The result is wrong only for numbers from 3 to 6."
+    some = told(row, lambda x: 99.0 if 3 <= x < 4 else x / 2 if x < 0 else x)
+    assert some == (
+        "The result is wrong only in some of the calls with numbers from 3 to 6."
+    )
 
 
 def test_adjacent_ranges_with_the_same_verdict_are_one():
