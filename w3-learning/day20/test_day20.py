@@ -191,7 +191,7 @@ def test_the_log_of_a_density_that_exp_cannot_represent_does_not_pass(student):
         results = check_tasks(day, path, sandbox, "20.1", seed=1)
     (verdict,) = [one.verdict for one in results if one.task.id == "20.1"]
     assert verdict.mistake == "underflow"
-    assert "not for an action far from it" in verdict.message
+    assert "not for an action far from the mean" in verdict.message
 
 
 @cache
