@@ -45,8 +45,7 @@ def whole(m1, c1, I1, m2, c2, I2, c, theorem=parallel_axes):
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
     """no-parallel-axes: your code adds I1 and I2 unchanged. First move both inertias to
-      the common centre of mass, because each one is given about its own body's centre
-      of mass
+      the common centre of mass, because each one is about its own body's centre of mass
     about-the-origin: your code returns the inertia about the origin of the frame.
       Return the inertia about the common centre of mass instead
     only-the-second-moved: your code moves only I2 to the common centre of mass. Move I1

@@ -69,8 +69,8 @@ def _(T_world_cube, above):
 
 @row.wrongs
 def _(T_world_cube, above):
-    """tool-up: your code returns a tool whose z axis points up. Rotate the tool by 180
-      degrees about its x axis, so that its z axis points down
+    """tool-up: your code returns a pose in which the z axis of the tool points up.
+      Rotate the tool by 180 degrees about its x axis, so that its z axis points down
     about-y: your code rotates the tool by 180 degrees about its y axis. Rotate the tool
       about its x axis instead, so that the tool's x axis is the world x axis at yaw 0
     left-handed: your code reverses only the z axis, so the matrix is a reflection with

@@ -70,7 +70,7 @@ def _(T0, T1, s):
       computes from R1 R0^T. The axis of R1 R0^T is expressed in the world frame, so
       multiply R0 from the left
     turn-on-the-left: your code multiplies R0 from the left by a rotation that it
-      computes from R0^T R1. The axis of R0^T R1 is expressed in the first frame, so
+      computes from R0^T R1. The axis of R0^T R1 is expressed in the frame of T0, so
       multiply R0 from the right
     turn-backwards: your code uses R1^T R0, which is the rotation from R1 to R0. Use
       R0^T R1 instead, which is the rotation from R0 to R1

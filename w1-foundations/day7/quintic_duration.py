@@ -58,10 +58,11 @@ def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERAT
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """least-of-all: your code returns the shortest of all durations. Return the longest
-      duration instead, because only this duration satisfies the limits of all joints
+    """least-of-all: your code returns the shortest of the durations for all joints and
+      limits. Return the longest duration instead, because only this duration satisfies
+      all limits
     added-up: your code adds the durations for all joints and limits. Return the longest
-      duration instead, because this duration satisfies all limits
+      duration instead, because this duration already satisfies all limits
     """
     each = seconds(delta_q, v_max, a_max)
     return {"least-of-all": each.min(), "added-up": each.sum()}
@@ -78,7 +79,7 @@ def _(delta_q, v_max, a_max):
     peak-of-the-cubic 3: your code uses 1.5 and 6, which are the maximum velocity and
       acceleration of the cubic scaling. Use the two maxima of the quintic instead
     peak-at-a-quarter: your code uses 5.625, which is the acceleration at a quarter of
-      the duration. Use the maximum acceleration, where the derivative of the
+      the duration. Use the maximum acceleration instead, where the derivative of the
       acceleration is 0
     """
     peaks = {
@@ -97,10 +98,10 @@ def _(delta_q, v_max, a_max):
     """limits-of-different-joints: your code combines the largest displacement with the
       lowest acceleration limit. Use the displacement and the limit of the same joint
     both-added: your code adds the duration for the velocity limit and the duration for
-      the acceleration limit. Use the longer of the two instead, because it satisfies
+      the acceleration limit. Use the longer of the two instead, which already satisfies
       both limits
     both-added 2: your code adds the duration for the velocity limit and the duration
-      for the acceleration limit. Use the longer of the two instead, because it
+      for the acceleration limit. Use the longer of the two instead, which already
       satisfies both limits
     shorter-of-two: your code returns the shorter of the durations for the velocity
       limits and the acceleration limits. Return the longer one instead, because it
@@ -110,9 +111,9 @@ def _(delta_q, v_max, a_max):
       it satisfies both limits
     fastest-joint: your code returns the shortest duration of all joints, so the other
       joints violate their limits. Return the longest duration instead
-    fastest-joint 2: your code takes the minimum over the joints, for the velocity
-      limits and for the acceleration limits. Take the maximum over the joints instead,
-      because every joint should stay within its limits
+    fastest-joint 2: for each kind of limit, your code uses the shortest duration of all
+      joints. Use the longest duration instead, because every joint should stay within
+      its limits
     one-length: your code uses the norm of delta_q and the lowest limits for all joints.
       Use each joint's own displacement and limits instead
     summed: your code adds the durations of the joints. Return the longest duration
@@ -123,9 +124,9 @@ def _(delta_q, v_max, a_max):
       longest duration of all joints, because a joint with lower limits may need more
       time
     one-limit-for-all: your code uses the limits of the first joint for all joints. Use
-      each joint's own limits
+      each joint's own limits instead
     one-limit-for-all 2: your code uses the lowest limits for all joints. Use each
-      joint's own limits
+      joint's own limits instead
     speed-only: your code uses only the velocity limits, so a short motion exceeds the
       acceleration limits. Use both limits
     acceleration-only: your code uses only the acceleration limits, so a long motion

@@ -49,9 +49,9 @@ def jumps(t, T):
       acceleration is 0 at both ends
     linear: your code uses s = t / duration, so the velocity jumps at both ends. Use the
       quintic instead, whose velocity and acceleration are 0 at both ends
-    cosine: your code uses s = (1 - cos(pi x)) / 2 with x = t / duration. Its
-      acceleration jumps at both ends. Use the quintic instead, whose acceleration is 0
-      at both ends
+    cosine: your code uses s = (1 - cos(pi x)) / 2 with x = t / duration. The
+      acceleration of this function jumps at both ends. Use the quintic instead, whose
+      acceleration is 0 at both ends
     """
     x = np.clip(t / T, 0.0, 1.0)
     a = np.pi * x
@@ -82,13 +82,14 @@ def _(t, T):
     6-and-10-swapped: your code swaps the coefficients 6 and 10, so the velocity is not
       0 at the end. The coefficient of x^3 should be 10 and the coefficient of x^5
       should be 6, where x = t / duration
-    sd-and-sdd-not-divided: your sd and sdd are derivatives with respect to x = t /
-      duration. By the chain rule, divide sd by the duration and sdd by duration^2
+    sd-and-sdd-not-divided: your code returns the derivatives with respect to x = t /
+      duration as sd and sdd. By the chain rule, divide sd by the duration and sdd by
+      duration^2
     t-for-x: your code evaluates the polynomial at t, so the duration has no effect.
       Evaluate the polynomial at t / duration instead
-    not-divided+not-clipped: your sd and sdd are derivatives with respect to x = t /
+    not-divided+not-clipped: your code returns the derivatives with respect to x = t /
       duration instead of t. Your code also evaluates the polynomial before the start
-      and after the end. The robot should be at rest at these times
+      and after the end, when the robot should be at rest
     end-not-clipped: your code handles t < 0 but not t > duration, so it evaluates the
       polynomial after the end. For t > duration, use s = 1 with zero velocity and
       acceleration, because the robot is at rest again
@@ -115,11 +116,10 @@ def _(t, T):
 
 @row.wrongs
 def _(t, T):
-    """sd-not-divided: your sd is the derivative with respect to x = t / duration. By
-      the chain rule, divide it by the duration to get the derivative with respect to t
-    sdd-not-divided: your sdd is the second derivative with respect to x = t / duration.
-      By the chain rule, divide it by duration^2 to get the second derivative with
-      respect to t
+    """sd-not-divided: your code returns the derivative with respect to x = t / duration
+      as sd. By the chain rule, divide sd by the duration
+    sdd-not-divided: your code returns the second derivative with respect to x = t /
+      duration as sdd. By the chain rule, divide sdd by duration^2
     sdd-divided-once: your code divides sdd by the duration only once. Divide sdd by
       duration^2, because sdd is the second derivative with respect to t
     multiplied-by-T: your code multiplies sd by the duration and sdd by duration^2. By

@@ -102,12 +102,11 @@ def _(t, L, v, a):
     """ramps-way-forgotten: your code starts the phase of constant velocity at position
       0. This phase should start at the position where the acceleration phase ends
     does-not-stop: your code continues the deceleration after the end, so the arm moves
-      backwards. After the end, the arm should be at rest at position L
-    does-not-wait: your code uses the formulas of the acceleration phase before the
-      start. Before the start, the arm should be at rest at position 0
+      backwards. The arm should be at rest at position L instead
+    does-not-wait: your code uses the formulas of the acceleration phase for t < 0.
+      Before the start, the arm should be at rest at position 0
     does-not-wait-or-stop: your code accelerates before the start and decelerates after
-      the end. The arm should be at rest at these times, first at position 0 and then at
-      position L
+      the end. The arm should be at rest before the start and after the end
     """
     top, ramp, T = timing(L, v, a)
     left = T - t

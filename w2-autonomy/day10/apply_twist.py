@@ -62,8 +62,9 @@ def _(T, xi):
       exp([xi]) T instead
     t-not-turned: your code does not rotate t. Multiply T by the whole exponential
       instead, because a rotation about the origin also moves t
-    v-as-translation: the translation in your exponential is v, which is correct only if
-      omega is 0 or parallel to v. Use the translation of the matrix exponential instead
+    v-as-translation: your code uses v as the translation of the exponential, which is
+      correct only if omega is 0 or parallel to v. Use the translation of the matrix
+      exponential instead
     length-lost: your code divides xi by the norm of omega, so the rotation angle is 1
       rad. The rotation angle should be the norm of omega
     slides-left-out: your code returns T unchanged if omega is 0. Translate T by v

@@ -61,8 +61,9 @@ for slug, says, other in (
      "its z component equals the depth, because the depth is measured along the "
      "camera's z axis",
      {"ray": unit_ray}),
-    ("K-for-its-inverse", "your code multiplies the pixel by K. Use the inverse of K, "
-                          "because K maps points to pixels",
+    ("K-for-its-inverse",
+     "your code multiplies the pixel by K. Multiply the pixel by the inverse of K "
+     "instead, because K maps points to pixels",
                           {"ray": lambda K, h, d: h @ K.T}),
     ("centre-forgotten",
      "your code does not subtract the principal point from the pixel. Subtract the "

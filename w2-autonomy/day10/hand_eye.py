@@ -135,13 +135,13 @@ for slug, says, other in (
      "your code rotates t_B by R^T. Use R instead, which maps the camera frame to the "
      "hand frame",
      {"turned": lambda R, t: t @ R}),
-    ("first-motion-only", "your code solves for t from the first motion only. One "
-                          "motion does not determine t along its own axis, so stack "
-                          "the equations of all motions",
+    ("first-motion-only",
+     "your code solves for t from the first motion only. One motion does not determine "
+     "t along its rotation axis, so stack the equations of all motions",
      {"some": slice(1)}),
-    ("last-motion-only", "your code solves for t from the last motion only. One motion "
-                         "does not determine t along its own axis, so stack the "
-                         "equations of all motions",
+    ("last-motion-only",
+     "your code solves for t from the last motion only. One motion does not determine "
+     "t along its rotation axis, so stack the equations of all motions",
      {"some": slice(-1, None)}),
 ):  # fmt: skip
     why = "only the axes about joint 7 are in one plane in the lab"
@@ -152,8 +152,8 @@ for slug, says, other in (
 @row.wrongs
 def _(A, B):
     """t-of-the-mean: your code solves for t separately for each motion and returns the
-      mean. One motion does not determine t along its own axis, so stack the equations
-      of all motions
+      mean. One motion does not determine t along its rotation axis, so stack the
+      equations of all motions
     centred-the-other-way: your code subtracts the means of the rotation vectors and
       fits the rotation from a to b. Fit the rotation from b to a without subtracting
       the means, because a = R b has no translation

@@ -75,15 +75,16 @@ for slug, says, other in (
     ("largest-turned-round",
      "your code corrects a reflection by negating the singular vector of the largest "
      "singular value. Negate the singular vector of the smallest one instead, because "
-     "this increases the error least",
+     "this choice increases the error least",
      {"rotation": lambda U, Vt: U @ np.diag(
          [np.linalg.det(U @ Vt), 1, 1]) @ Vt}),
-    ("column-turned-round", "your code corrects a reflection by negating the third "
-                            "column of V^T. Negate the third row, because the "
-                            "singular vectors are the rows of V^T",
+    ("column-turned-round",
+     "your code corrects a reflection by negating the third column of V^T. Negate the "
+     "third row instead, because the singular vectors are the rows of V^T",
      {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
-    ("always-turned-round", "your code always negates the third singular vector. "
-                            "Negate it only if U V^T is a reflection",
+    ("always-turned-round",
+     "your code always negates the third singular vector. Negate this vector only if U "
+     "V^T is a reflection",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
     ("R-transposed",
      "your code returns the transposed rotation, which maps the target to the source. "
@@ -99,8 +100,8 @@ for slug, says, other in (
      "centroids, because otherwise the translation changes the rotation",
      {"centre": lambda X: np.zeros(3)}),
     ("one-number-for-the-centre",
-     "your code uses a single number as the centroid, the mean of all coordinates. Use "
-     "axis=0 to compute one mean for each coordinate",
+     "your code uses the mean of all coordinates, a single number, as the centroid. "
+     "Use axis=0 to compute one mean for each coordinate",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
     ("about-the-first",
      "your code subtracts the first points before the SVD. Subtract the centroids "

@@ -47,8 +47,9 @@ for slug, says, other in (
                           "coordinates. Omit this division, because J^T J is already "
                           "the sum over all coordinates",
      {"share": lambda n: 1 / n}),
-    ("reshaped-across", "your code reshapes J to (6, 2 n), which mixes its rows. J has "
-                        "one row per pixel coordinate, so its shape is (2 n, 6)",
+    ("reshaped-across",
+     "your code reshapes J to (6, 2 n), which mixes its rows. Reshape J to (2 n, 6) "
+     "instead, with one row for each pixel coordinate",
      {"rows": lambda J: J.reshape(6, -1).T}),
     ("u-alone",
      "your code uses only the rows for u. Use the rows for v as well, because they "

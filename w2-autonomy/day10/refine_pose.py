@@ -104,8 +104,9 @@ for slug, says, other in (
     ("J-of-the-guess",
      "your code uses the Jacobian of the guess in every step. Evaluate the Jacobian at "
      "the current pose instead", {"held": True}),
-    ("twist-halves-swapped", "your code treats the step as (v; omega). The columns of "
-                             "J begin with omega, so the step is (omega; v)",
+    ("twist-halves-swapped",
+     "your code treats the step as (v; omega). The step is (omega; v), because the "
+     "columns of J begin with omega",
      {"move": lambda T, xi: apply_twist(T, np.roll(xi, 3))}),
     ("body-twist",
      "your code multiplies T by the exponential of each step from the right. Multiply "
@@ -119,8 +120,9 @@ for slug, says, other in (
      "your code uses J^T r as the step, where r is the reprojection error. Use the "
      "least-squares solution of J xi = r instead, which is the Gauss-Newton step",
      {"solve": downhill}),
-    ("each-from-the-guess", "your code applies each step to the guess. Apply each "
-                            "step to the pose after the previous step",
+    ("each-from-the-guess",
+     "your code applies each step to the guess. Apply each step to the pose after the "
+     "previous step instead",
                             {"since": lambda T, guess: guess}),
     ("half-steps",
      "your code halves each step, so ten steps leave a thousandth of the error. Use "

@@ -126,9 +126,9 @@ for slug, says, other in (
                                 "each link. T_links[0] is already the pose of link 1, "
                                 "so use T_links[i - 1] for link i",
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
-    ("pose-on-the-link-before", "your code uses the pose of each link relative to the "
-     "previous link. T_links contains poses relative to the world, so use them "
-     "unchanged",
+    ("pose-on-the-link-before",
+     "your code uses the pose of each link relative to the previous link. Use the "
+     "poses in T_links unchanged, which are relative to the world",
      {"pose": lambda T, i: inverse(T[i - 1]) @ T[i] if i else T[0]}),
     ("p-sign",
      "your code uses R^T [p] as the lower left block of Ad(T^-1). This block should be "

@@ -32,8 +32,8 @@ def _(V, Vd):
     ad-not-transposed-plus: your code uses ad(V) G V as the velocity term. This term
       should be -ad(V)^T G V, because the momentum G V transforms like a wrench
     unit-vector-not-reset: your code does not reset the unit vector phi between columns,
-      so column k contains the sum of the first k columns. Create a new unit vector for
-      each column
+      so column k is the sum of the first k correct columns. Create a new unit vector
+      for each column
     gravity-added: your code adds gravity to Vd. Use Vd unchanged, because it already
       includes gravity as the acceleration -g of the base
     first-moments-empty: your code returns 0 in the columns for m c. Neither multiply

@@ -56,8 +56,8 @@ def _(Y, tau, Y_new, rtol):
     sizes-added 2: your code uses the sum of the absolute entries of y Y^+ in sigma,
       where y is a row of Y_new. Use the norm of y Y^+ instead, because the variances of
       independent errors add
-    sigma-not-cut: your code includes in sigma the small singular values that the fit
-      omits. Omit these singular values in sigma as well
+    sigma-not-cut: your code uses all singular values in sigma. Omit the small singular
+      values that the fit also omits
     """
     torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
     U, s, Vt = parts(Y, rtol)

@@ -54,7 +54,7 @@ for slug, says, other in (
      {"felt": lambda i: slice(i, i + 1)}),
     ("later-links-only",
      "your code omits the contribution of link i. Begin the sum with link i, because "
-     "joint i also rotates its own link",
+     "joint i also rotates link i",
      {"felt": lambda i: slice(i + 1, None)}),
     ("last-link-left-out", "your code omits the contribution of link 7. Does your "
                            "loop end one link too early?",

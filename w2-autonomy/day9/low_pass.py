@@ -57,7 +57,7 @@ for slug, says, other in (
      {"step": lambda y, now, before, a: now + a * (y - now)}),
     ("euler-share",
      "your code uses 2 pi cutoff dt as alpha, which can exceed 1. Use 1 - exp(-2 pi "
-     "cutoff dt) instead, which belongs to the exact solution over dt",
+     "cutoff dt) instead, which is always below 1",
      {"alpha": lambda x: x}),
     ("no-2-pi",
      "your code omits the factor of 2 pi in alpha. The weight alpha should be 1 - "

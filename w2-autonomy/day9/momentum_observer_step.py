@@ -46,8 +46,8 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
       Update the integral first, and then use the new integral
     integral-not-handed-on: your code returns the previous integral. Return the new
       integral instead
-    fed-back-times-gain: your code multiplies the previous residual by the gain in the
-      integral. Omit the gain, because the residual is already a torque
+    fed-back-times-gain: your code adds gain times the previous residual to the
+      integral. Add the residual without the gain, because it is already a torque
     low-passed-again: your code adds gain * (momentum - integral) * dt to the previous
       residual. Return gain * (momentum - integral) itself, because the feedback in the
       integral already filters the residual
@@ -55,9 +55,9 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
       residual alone => both
     residual-taken-off: your code subtracts the previous residual from the new one.
       Return the new residual alone
-    new-residual-fed-back: your code updates the integral with a residual from the new
-      momentum. Use the argument `residual` instead, which is the residual of the
-      previous sample
+    new-residual-fed-back: your code updates the integral with a residual that it
+      computes from the new momentum. Use the argument `residual` instead, which is the
+      residual of the previous sample
     """
     known = tau + energy_grad - gravity - damping * qd
     now = integral + (known + residual) * dt

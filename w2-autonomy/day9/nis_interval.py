@@ -27,15 +27,16 @@ def interval(
 
 for slug, says, other in (
     ("multiplied-for-divided",
-     "your code computes c as 2 / 9 * n * m, which divides only by 9. Write 2 / (9 * n "
-     "* m) instead",
+     "your code computes the variance of the cube root as 2 / 9 * n * m, which divides "
+     "only by 9. Write 2 / (9 * n * m) instead",
      {"c": lambda n, m: 2 / 9 * n * m}),
     ("added-for-multiplied",
-     "your code uses n + m in c. Use n m instead, because the sum of n NIS values has "
-     "n m degrees of freedom",
+     "your code uses n + m in the variance of the cube root. Use n m instead, because "
+     "the sum of n NIS values has n m degrees of freedom",
      {"c": lambda n, m: 2 / (9 * (n + m))}),
     ("whole-division",
-     "your code computes c with the operator //, so c is 0. Use the operator / instead",
+     "your code computes the variance of the cube root with the operator //, so the "
+     "variance is 0. Use the operator / instead",
      {"c": lambda n, m: 2 // (9 * n * m)}),
     ("shift-forgotten",
      "your function uses 1 as the mean of the cube root. Use 1 - c instead, where c is "
@@ -43,12 +44,15 @@ for slug, says, other in (
     ("shift-sign",
      "your function uses 1 + c as the mean of the cube root. Use 1 - c instead, where "
      "c is the variance of the cube root", {"middle": lambda c: 1 + c}),
-    ("ninety", "your function uses 1.645 standard deviations, which enclose 90 % of a "
-               "Gaussian. Use 1.96 for 95 %", {"z": 1.645}),
-    ("two-sigma", "your function uses 2 standard deviations, which enclose 95.4 % of "
-                  "a Gaussian. Use 1.96 for 95 %", {"z": 2.0}),
-    ("ninety-nine", "your function uses 2.576 standard deviations, which enclose 99 % "
-                    "of a Gaussian. Use 1.96 for 95 %", {"z": 2.576}),
+    ("ninety",
+     "your function uses 1.645 standard deviations, which enclose 90 % of a Gaussian. "
+     "Use 1.96 standard deviations for 95 %", {"z": 1.645}),
+    ("two-sigma",
+     "your function uses 2 standard deviations, which enclose 95.4 % of a Gaussian. "
+     "Use 1.96 standard deviations for 95 %", {"z": 2.0}),
+    ("ninety-nine",
+     "your function uses 2.576 standard deviations, which enclose 99 % of a Gaussian. "
+     "Use 1.96 standard deviations for 95 %", {"z": 2.576}),
     ("more-digits", "your function uses 1.959964 standard deviations. Use 1.96, as "
                     "in the task",
      {"z": 1.959964}),

@@ -52,8 +52,7 @@ for slug, says, other in (
      {"whole": lambda k: np.floor(k) + 0.5}),
     ("one-count-fewer",
      "your code divides a revolution by counts - 1. Divide the revolution by `counts` "
-     "instead, because the step from the last count back to the first also belongs to "
-     "the revolution",
+     "instead, because it contains `counts` steps",
      {"step": lambda n: 2 * np.pi / (n - 1)}),
     ("no-pi",
      "your code sets the angle of one count to 1 / counts. Use 2 pi / counts instead, "
