@@ -72,7 +72,7 @@ for slug, says, other in (
          p[:, :2] * np.diag(K)[:2] + K[:2, 2], p[:, 2]])}),
     ("centre-forgotten",
      "your code omits the principal point. Add the principal point, because a point "
-     "with x = y = 0 projects to it and not to pixel (0, 0)",
+     "with x = y = 0 should project to the centre of the image",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
     ("centre-taken-off", "your code subtracts the principal point. Add the principal "
                          "point instead",

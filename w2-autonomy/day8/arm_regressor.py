@@ -101,10 +101,9 @@ for slug, says, other in (
      "your code only rotates the wrench to the world frame. Multiply the wrench by "
      "X^T, which also moves the reference point of the moment to the world origin",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),
-    ("every-joint-feels-every-link", "your code fills the rows of all joints for each "
-                                     "link. For link i, fill only the rows of joints "
-                                     "1 to i, because a link causes no torque at the "
-                                     "joints distal to it",
+    ("every-joint-feels-every-link",
+     "your code fills the rows of all joints for link i. Fill only the rows of joints "
+     "1 to i, because a link causes no torque at the joints distal to it",
      {"felt": lambda i: slice(0, 7)}),
     ("cut-early", "your code does not fill the row of joint i for link i. Fill this "
                   "row too, because a link also causes a torque at its own joint",
