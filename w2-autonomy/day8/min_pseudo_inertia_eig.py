@@ -47,20 +47,21 @@ def doubled(I):  # noqa: E741
 
 for slug, says, code in (
     ("only-the-inertia",
-     "your code returns the smallest eigenvalue of I. Use the pseudo-inertia [[S, h], "
-     "[h^T, m]] instead, where S is (tr(I)/2) E - I and E is the identity matrix",
+     "your code returns the smallest eigenvalue of I. Use the pseudo-inertia "
+     "[[Sigma, h], [h^T, m]] instead, where Sigma is (tr(I)/2) E - I and E is the "
+     "identity matrix",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi)[:3, :3])[0]),
     ("inertia-not-turned-round",
      "your code uses I as the upper left block. Use (tr(I)/2) E - I instead, where E "
      "is the identity matrix",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: I))[0]),  # noqa: E741
     ("products-not-negated",
-     "your code uses Ixy, Ixz and Iyz as the off-diagonal entries of S. Negate these "
-     "three entries, because S is (tr(I)/2) E - I with the identity matrix E",
+     "your code uses Ixy, Ixz and Iyz as the off-diagonal entries of Sigma. Negate "
+     "these three entries, because Sigma is (tr(I)/2) E - I with the identity matrix E",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, mirrored))[0]),
     ("not-halved",
-     "your code omits the factor of 1/2 on the diagonal of S. For example, the first "
-     "entry of S should be (Iyy + Izz - Ixx) / 2",
+     "your code omits the factor of 1/2 on the diagonal of Sigma. For example, the "
+     "first entry of Sigma should be (Iyy + Izz - Ixx) / 2",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, doubled))[0]),
     ("centre-for-first-moment",
      "your code uses the centre of mass c in the pseudo-inertia. Use the first moment "
@@ -87,8 +88,8 @@ for slug, says, code in (
      "eigenvalue itself, which is not negative for a body that can exist",
      lambda phi: -abs(np.linalg.eigvalsh(pseudo(phi))[0])),
     ("first-moment-once",
-     "your result does not depend on h. Write h both to the right of S and below S, "
-     "because numpy.linalg.eigvalsh reads only the lower triangle",
+     "your result does not depend on h. Write h both to the right of Sigma and below "
+     "it, because numpy.linalg.eigvalsh reads only the lower triangle",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
     ("about-the-centre", "your code first moves I to the centre of mass. Use I "
@@ -97,8 +98,8 @@ for slug, says, code in (
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
     ("of-the-inertia",
      "your code returns the smallest eigenvalue of the 6x6 spatial inertia. Use the "
-     "pseudo-inertia [[S, h], [h^T, m]] instead, where S is (tr(I)/2) E - I and E is "
-     "the identity matrix",
+     "pseudo-inertia [[Sigma, h], [h^T, m]] instead, where Sigma is (tr(I)/2) E - I and E "
+     "is the identity matrix",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi))[0]),
     ("unsorted",
      "your code returns the first result of numpy.linalg.eigvals, which does not sort "
