@@ -98,8 +98,8 @@ for slug, says, code in (
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
     ("of-the-inertia",
      "your code returns the smallest eigenvalue of the 6x6 spatial inertia. Use the "
-     "pseudo-inertia [[Sigma, h], [h^T, m]] instead, where Sigma is (tr(I)/2) E - I and E "
-     "is the identity matrix",
+     "pseudo-inertia [[Sigma, h], [h^T, m]] instead, where Sigma is (tr(I)/2) E - I "
+     "and E is the identity matrix",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi))[0]),
     ("unsorted",
      "your code returns the first result of numpy.linalg.eigvals, which does not sort "
