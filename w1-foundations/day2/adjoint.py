@@ -21,9 +21,9 @@ def _(rng):
 
 @row.wrongs
 def _(T):
-    """block-top-right: your block [p] R is in the upper right, as for wrenches and for
-      twists (v; omega). In this course omega comes first, so the block belongs in the
-      lower left
+    """block-top-right: your code puts the block [p] R in the upper right, as for twists
+      in the order (v; omega). In this course omega comes first, so the block belongs in
+      the lower left
     no-lever-arm: your lower left block is 0. This block should be [p] R, because v
       depends on omega if the origins of the two frames differ
     on-both-sides: both of your off-diagonal blocks are [p] R. The upper right block

@@ -46,8 +46,8 @@ def in_order(order, alpha, a, d, theta):
 
 @row.wrongs
 def _(alpha, a, d, theta):
-    """standard-formula: your matrix follows the standard convention, Rz Tz Tx Rx.
-      Franka's table follows Craig's convention, so rotate about x first
+    """standard-formula: your matrix follows the standard convention, Rot_z Trans_z
+      Trans_x Rot_x. Franka's table follows Craig's convention, so rotate about x first
     a-after-theta: your rotation is correct, but your translation by `a` comes after the
       rotation about z. The translation by `a` should come before this rotation
     d-along-the-old-z: your rotation is correct, but your translation by `d` comes
@@ -78,7 +78,8 @@ for order in ("zxXZ", "XzxZ", "XzZx"):
 
 @row.wrongs
 def _(alpha, a, d, theta):
-    """both-turns-backwards: both of your rotations are in the wrong direction
+    """both-turns-backwards: your code rotates by -alpha and by -theta. Use both angles
+      unchanged
     radians-taken-for-degrees: your code converts both angles from degrees to radians.
       Use both angles unchanged, because they are already in radians
     alpha-forgotten: your code does not use the argument `alpha`

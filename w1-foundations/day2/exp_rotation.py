@@ -91,8 +91,8 @@ def _(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """exp-by-entries: your code uses np.exp, which takes the exponential of each entry.
-      Use the matrix exponential instead, which is a series of matrix products
+    """exp-by-entries: your code uses `np.exp`, which takes the exponential of each
+      entry. Use the matrix exponential instead, which is a series of matrix products
     bracket-of-a-dyad: your last term is (1 - cos(theta)) axis axis^T. With this term,
       the identity matrix needs the factor cos(theta)
     dyad-without-factor: your code omits the factor 1 - cos(theta) in front of axis

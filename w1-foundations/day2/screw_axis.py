@@ -35,10 +35,10 @@ def _(axis, point):
       omega, and the second half should be v
     twist-order-and-sign: your code swaps omega and v, and v also has the wrong sign.
       The first half of the screw should be omega
-    product-by-entries: your v is the entry-by-entry product of omega and the point. Use
-      the cross product instead
-    product-by-entries 2: your v is the entry-by-entry product of omega and the point.
-      Use the cross product instead
+    product-by-entries: your code computes v by an entry-by-entry product of omega and
+      the point. Use the cross product instead
+    product-by-entries 2: your code computes v by an entry-by-entry product of omega and
+      the point. Use the cross product instead
     """
     v = np.cross(point, axis)
     return {
