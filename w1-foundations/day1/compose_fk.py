@@ -100,8 +100,8 @@ for k in range(1, 8):
 
 @row.wrongs
 def _(model, q, path=PATH):
-    """home-whatever-q: your code does not use `q` and always returns the pose for the
-      ready configuration
+    """home-whatever-q: your code always returns the pose for the ready configuration.
+      Use the joint angles in `q` instead
     ready-subtracted: your code subtracts the angles of the ready configuration from
       `q`. Each joint should rotate by its entry in `q`
     """

@@ -84,8 +84,8 @@ def flange(case: Case) -> Finding | None:
 
     says = f"Your result is close, but it is off by {off:.1e}."
     if any(ends_in(make(FLANGE_QUAT)) for make in UNNORMALISED):
-        says += " The quaternion of `attachment` in the file is rounded, so its norm is "
-        says += "not exactly 1. Normalise this quaternion."
+        says += " The quaternion of `attachment` in the file is rounded, so its "
+        says += "norm is not exactly 1. Normalise this quaternion."
         return Finding("flange-not-normalised", says)
     if ends_in(se3.Rz(0.75 * np.pi)):
         says += " Your code rotates `attachment` by exactly 135 degrees. Use the "
