@@ -76,8 +76,8 @@ def _in_the_product(row, form):
     def _(screws, M, q):
         """product-reversed: your code multiplies the exponentials in the reverse order.
           The exponential of the joint nearest to the base belongs on the left
-        M-twice: your code multiplies by M on both sides of the exponentials. The product
-          should contain M only once
+        M-twice: your code multiplies by M on both sides of the exponentials. The
+          product should contain M only once
         M-in-the-loop: your code multiplies by M inside the loop, so the product
           contains M once per joint. The product should contain M only once
         multiplied-by-entries: your code multiplies the exponentials entry by entry. Use
