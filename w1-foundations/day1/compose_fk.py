@@ -80,12 +80,12 @@ row.wrong(ends.fingertip_for_the_end)
 
 def stops_early(row, k, end):
     """Take the chains that end at link k, with its joint's rotation or without."""
-    says = f"your chain stops at link{k}. The chain should end at {end}"
+    says = f"your code ends the chain at link{k}. The chain should end at {end}"
     row.wrong("stops-early", says)(
         lambda model, q, path=PATH: fk(model, q, path[: k + 1])
     )
-    says = f"your chain stops at link{k} and omits the rotation of joint{k}. The chain "
-    says += f"should end at {end}"
+    says = f"your code ends the chain at link{k} and omits the rotation of joint{k}. "
+    says += f"The chain should end at {end}"
     row.wrong("stops-early", says)(
         lambda model, q, path=PATH: fk(model, q, path[:k]) @ link(model, path[k][0])
     )

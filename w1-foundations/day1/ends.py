@@ -42,8 +42,8 @@ def elsewhere(model, q, path=PATH):
     fingertip-for-the-end: your code returns the pose of the tool centre point between
       the fingertips. The model `panda_nohand` has no fingers, so the chain should end
       at `attachment`
-    stops-at-link7: your chain stops at link7. Multiply by the fixed transform from
-      link7 to the end effector as well
+    stops-at-link7: your code ends the chain at link7. Multiply by the fixed transform
+      from link7 to the end effector as well
     flange-not-turned: your position is correct, but your code omits the rotation of
       `attachment` relative to link7
     flange-turned-backwards: your position is correct, but your code rotates
