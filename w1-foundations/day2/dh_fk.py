@@ -43,7 +43,7 @@ ONE_TABLE = "the lab has one table"
 def _(table, q):
     """flange-missing: your code omits the eighth row of the table, so it returns the
       pose of link7 instead of the flange pose
-    flange-turned: your code rotates the eighth row by the last joint's angle. Use the
+    flange-turned: your code uses the last joint's angle for the eighth row. Use the
       angle 0 for this row, because the flange does not rotate relative to link7
     theta-one-row-late: your code uses each angle one row too late. The angle of the
       first row should be `q[0]`, because this row belongs to joint1

@@ -70,8 +70,8 @@ def _(alpha, a, d, theta):
 for order in ("zxXZ", "XzxZ", "XzZx"):
     row.wrong(
         "order-of-moves",
-        "your code rotates about z before it rotates about x. Use the order of the "
-        "factors in the docstring, which begins with the rotation about x",
+        "your code rotates about z before it rotates about x. The first factor "
+        "should be the rotation about x, as in the docstring",
     )(partial(in_order, order))
 
 
