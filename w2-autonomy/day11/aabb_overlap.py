@@ -136,13 +136,13 @@ def _(box_a, box_b):
     one-direction 2: your code makes only one of the two comparisons, so it reports an
       overlap if `box_b` lies below `box_a`. Compare both ends of each interval
     touching-left-out: your code reports boxes that only touch as separate. Boxes that
-      only touch overlap, so use <= instead of <
+      only touch overlap, so use `<=` instead of `<`
     touching-left-out 2: your code reports boxes as separate if an upper face of `box_a`
-      touches a lower face of `box_b`. Boxes that only touch overlap, so use <= in both
-      comparisons
+      touches a lower face of `box_b`. Boxes that only touch overlap, so use `<=` in
+      both comparisons
     touching-left-out 3: your code reports boxes as separate if a lower face of `box_a`
-      touches an upper face of `box_b`. Boxes that only touch overlap, so use <= in both
-      comparisons
+      touches an upper face of `box_b`. Boxes that only touch overlap, so use `<=` in
+      both comparisons
     negated: your code negates the result. Return True if the boxes overlap
     first-axis-only: your code compares only x. Two boxes overlap only if their
       intervals overlap on all three axes

@@ -115,8 +115,8 @@ def _(a0, a1, ra, b0, b1, rb):
       between p and o. Use the norm of p - o instead
     sum-of-parts: your code uses the sum of the absolute components of p - o as the
       distance between p and o. Use the norm of p - o instead
-    in-the-plane 2: your code does not use x in the distance. Use all three coordinates
-    in-the-plane 3: your code does not use y in the distance. Use all three coordinates
+    in-the-plane 2: your code omits the x component of p - o. Use all three components
+    in-the-plane 3: your code omits the y component of p - o. Use all three components
     product-of-radii: your code subtracts the square root of the product of the radii.
       Subtract the sum of the radii instead
     squares-of-radii: your code subtracts the squares of the radii. Subtract the radii
@@ -167,10 +167,10 @@ def _(a0, a1, ra, b0, b1, rb):
       11.1, because the closest points can lie between the tested points
     sampled 4: your code tests only some points of each axis. Use the points of task
       11.1, because the closest points can lie between the tested points
-    lines: your code uses the distance between infinite lines. Use the points of task
-      11.1, because each axis ends at its two ends
+    lines: your code treats the axes as infinite lines. Use the points of task 11.1,
+      because the axes are segments
     grown-axes: your code extends each axis by its radius at both ends. Omit this
-      extension, because the radii are subtracted from the distance
+      extension, because subtracting the radii already includes the round ends
     starts-and-ends: your code uses the segments from `a0` to `b0` and from `a1` to
       `b1`. Use the axes, from `a0` to `a1` and from `b0` to `b1`
     in-the-plane: your code omits the z component of p - o. Use all three components

@@ -125,9 +125,8 @@ def _(s, distance, delta_q, radii):
     fastest-joint-only 2: your code multiplies the largest `abs(delta_q[i])` by the
       largest radius. Add `abs(delta_q[i]) * radii[i]` over all joints, because their
       motions add up
-    norm-of-dq: your code multiplies the norm of `delta_q` by the largest radius. Add
-      `abs(delta_q[i]) * radii[i]` over all joints, because the product is not an upper
-      bound
+    norm-of-dq: your code multiplies the norm of `delta_q` by the largest radius, which
+      is not an upper bound. Add `abs(delta_q[i]) * radii[i]` over all joints instead
     norm-of-products: your code takes the norm of the products `abs(delta_q[i]) *
       radii[i]`. Take the sum of the products instead
     norm-of-products 2: your code multiplies the norm of `delta_q` by the norm of

@@ -84,8 +84,8 @@ def _(link_lengths, link_radii):
       the last link. Add each radius to the distance to its own link, and then take the
       maximum
     least: your code takes the minimum of the link radius and the sum of the link length
-      and the next bound. Take the maximum instead, because the bound must hold for
-      every distal point
+      and the next joint's bound. Take the maximum instead, because the bound must hold
+      for every distal point
     not-in-a-row: your code adds the link length to the radius of the joint's own link.
       Add it to the bound of the next joint, and then take the maximum of the sum and
       the radius
@@ -129,8 +129,8 @@ def _(link_lengths, link_radii):
     two-behind-only: your code uses only the joint's own link and the next two links for
       the bound. Include all distal links, because the joint moves all of them
     sum-not-largest: your code adds the link radius to the maximum of the link length
-      and the next bound. Take the maximum of the link radius and the sum of the other
-      two instead
+      and the next joint's bound. Take the maximum of the link radius and the sum of the
+      other two instead
     largest-of-three: your code takes the maximum of the link radius, the link length
       and the bound of the next joint. Add the link length and the bound before you take
       the maximum

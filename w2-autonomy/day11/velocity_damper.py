@@ -119,14 +119,13 @@ MORE = (
 )
 def _(qd, grad, distance, gain):
     """always: your code also changes velocities that are already allowed. Return `qd`
-      if it satisfies the condition
+      unchanged if it satisfies the condition
     not-divided: your code does not divide the correction by `grad @ grad`. Divide it,
       because the norm of `grad` need not be 1
     divided-by-the-length: your code divides the correction by the norm of `grad`.
       Divide it by `grad @ grad` instead
     pushed-in: your code subtracts the correction, so the arm moves nearer to the
-      obstacle. Change `qd` along +`grad`, because the distance increases in this
-      direction
+      obstacle. Add the correction to `qd`, because the distance increases along `grad`
     all-joints-slowed: your code scales all joint velocities by one factor. Change only
       the component of `qd` along `grad`
     all-joints-slowed 2: your code scales all joint velocities by one factor. Change
