@@ -46,7 +46,7 @@ row = Row(
             "size-absolute",
             "Your result is correct for segments of about 1 m, but not for segments "
             "of a few millimetres. Compare a c - b b with a fraction of a c instead of "
-            "a constant, because its unit is m^4.",
+            "a constant, because the unit of a c - b b is m^4.",
             lambda rng: [
                 tuple(0.002 * x for x in pairs.segments(rng, one))
                 for one in ("inside", "an end", "inside", "an end")

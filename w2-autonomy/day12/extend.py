@@ -179,10 +179,10 @@ def _(tree, sample, step, world):
       edge from the nearest node to the new point
     standing-is-blocked: your code reports a blocked edge if the sample equals a node.
       Report this edge as free if the node is free
-    own-is-free: your code does not call the method `edge_free` of a world that has one,
-      so it reports every edge of this world as free. Call this method
-    own-is-blocked: your code does not call the method `edge_free` of a world that has
-      one, so it reports every edge of this world as blocked. Call this method
+    own-is-free: your code reports every edge as free in a world with its own method
+      `edge_free`. Call this method to test the edge
+    own-is-blocked: your code reports every edge as blocked in a world with its own
+      method `edge_free`. Call this method to test the edge
     free-if-reached: your code reports a free edge only if the step reaches the sample.
       Return the result of the edge test even if the step does not reach the sample
     reached-is-free: your code does not test the edge if the step reaches the sample.

@@ -75,7 +75,7 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
       `M @ dq_ds`, because `qdd = dq_ds * sdd + d2q_ds2 * sd**2`
     m-dq-twice: your code uses `M @ dq_ds` in `b`. Use `M @ d2q_ds2` instead
     both-in-a: your code adds `M @ d2q_ds2` to `a`. Add this term to `b` instead,
-      because it is multiplied by sd^2
+      because `b` is multiplied by sd^2
     gravity-sign: your code returns `-gravity` as `c`. Return `gravity` itself, which is
       the torque that holds the arm
     gravity-forgotten: your code omits gravity, so the third row is 0. Return `gravity`
@@ -86,9 +86,9 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     solved: your code multiplies by the inverse of M. Multiply by M itself, because M
       maps accelerations to torques
     coriolis-in-g: your code adds the Coriolis torque to `c`. Add it to `b` instead,
-      because it is multiplied by sd^2
+      because `b` is multiplied by sd^2
     coriolis-in-a: your code adds the Coriolis torque to `a`. Add it to `b` instead,
-      because it is multiplied by sd^2
+      because `b` is multiplied by sd^2
     rows-summed: your code multiplies the sum of each row of M by the entry of `dq_ds`
       or `d2q_ds2` for that joint. Use the matrix product with M instead
     trace: your code multiplies by the trace of M. Use the matrix product with M instead

@@ -33,9 +33,9 @@ def turned(angle, x, y):
 @row.wrongs
 def _(theta, observation):
     """world-axes: your code adds the shift in the world frame. Rotate the shift by the
-      yaw of the cube first, because it is expressed in the frame of the cube
+      yaw of the cube first, because the shift is expressed in the frame of the cube
     turned-with-the-hand: your code rotates the shift by the yaw of the hand. Rotate it
-      by the yaw of the cube, because it is expressed in the frame of the cube
+      by the yaw of the cube, because the shift is expressed in the frame of the cube
     clipped-after: your code clamps the action instead of `theta`. Clamp `theta` before
       you use it
     clipped-below-only: your code clamps `theta` at `LOW`, but not at `HIGH`. Clamp

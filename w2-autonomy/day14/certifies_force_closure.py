@@ -92,8 +92,9 @@ IN_ONE_UNIT = "all rows and weights of the lab are of similar size"
 def _(W, weights):
     """rank-only: your code tests only the rank. Test the weights and W w = 0 too,
       because the rank is 6 even if all fingers press on one face
-    balance-only: your code does not test the rank. Test that it is 6, because balanced
-      forces of two fingers do not prevent a rotation about the line through them
+    balance-only: your code does not test the rank. Test that the rank is 6, because
+      balanced forces of two fingers do not prevent a rotation about the line through
+      them
     balance-and-rank-5: your code accepts rank 5. Require rank 6, because a wrench has
       six components
     zero-weights-do: your code accepts a weight of 0. Require every weight to be above 0

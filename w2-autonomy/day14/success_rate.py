@@ -25,8 +25,8 @@ def wilson(k, n, z=1.96, moved=True, inside=True, divided=True):
 
 @row.wrongs
 def _(success):
-    """plain: your code returns the Wald interval p +- 1.96 sqrt(p (1 - p) / n), whose
-      width is 0 for 8 successes in 8 trials. Use Day 12's `wilson_interval` instead
+    """plain: your code returns the Wald interval. Use Day 12's `wilson_interval`
+      instead, because the width of a Wald interval is 0 for 8 successes in 8 trials
     plain-to-0-and-1: your code returns the Wald interval, clamped to [0, 1]. Use Day
       12's `wilson_interval` instead
     middle-for-rate: your code returns the centre of the interval as the rate. Return
