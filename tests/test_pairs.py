@@ -209,7 +209,7 @@ def test_of_two_mistakes_only_what_the_function_does_is_told():
 
     says = told(14, "14.6", reward=reward)
     assert "Your code has two mistakes. First, " in says
-    assert " Second, your reward for NaN is 0" in says
+    assert " Second, your code returns 0 for a height of NaN" in says
     assert "because the simulation failed" not in says
 
 
