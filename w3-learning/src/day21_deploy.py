@@ -390,6 +390,9 @@ def late_plans(lab: Lab, policy, start: np.ndarray) -> None:
         words = WAYS[how] if ticks else "not late"
         print(f"  {ticks} ticks late, {words:30} about {rounded(found[ticks, how]):3} "
               f"of {len(start)} within 10 mm")  # fmt: skip
+    for how, row in (("first", "their first row"), ("indexed", "the row for now")):
+        home = rounded(found[LATE, how])
+        lab.measured(f"late plans run from {row}, pucks of {len(start)}", home)
     gain = np.sum(found[LATE, "ahead"]) - np.sum(found[LATE, "first"])
     lab.record("late", gain, metric="starts",
                label="predicted state minus first entry, pucks")  # fmt: skip
@@ -445,9 +448,11 @@ def watched(lab: Lab, fns, limit: float) -> None:
     ):
         score, near = scores_of(fns, first, shift)
         ticks = [alarm_at(one, limit, IN_A_ROW) for one in score]
-        alarms = np.sum(np.array(ticks) >= 0)
-        print(f"  {name:20} about {5 * round(alarms / 5):2} alarms and about "
+        alarms = rounded(np.array(ticks) >= 0)
+        print(f"  {name:20} about {alarms:2} alarms and about "
               f"{rounded(near):2} pucks within 10 mm, of {WATCHED}")  # fmt: skip
+        if name != "usual starts":
+            lab.measured(f"alarms of {WATCHED}, {name}", alarms)
 
 
 def scores_of(fns, start: np.ndarray, shift: np.ndarray):
@@ -491,6 +496,7 @@ def league(lab: Lab, fns) -> None:
     value = "p < 0.001" if p[0] < 0.001 else f"p = {p[0]:.3f}"
     verdict = "different" if different[0] else "no difference is shown"
     print(f"  sign test: {value}, {verdict}")
+    lab.measured("pucks of the regression, of 100", rounded(success[1]))
     ahead = np.sum(success[0]) - np.sum(success[1])
     lab.record("league", ahead, metric="starts",
                label="diffusion policy minus regression, pucks")  # fmt: skip
@@ -502,7 +508,7 @@ def arm(lab: Lab, fns) -> None:
     found = pushing.attempt(fns)
     print(pushing.HEAD.strip("\n"))
     print(pushing.row("one puck", found))
-    lab.record("push", found.place_mm, metric="mm", label="puck from its mark, mm")
+    lab.record("push", found.place_mm, metric="mm", label="puck from home, mm")
     lab.record("seen", found.seen_mm, metric="mm", label="error of the camera, mm")
 
 
