@@ -138,10 +138,10 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
             f"R is a reflection (det R = -1) {in_calls(int(mirrored), len(S))}.",
         )
     off_by = degrees(S, T)
-    off = say_degrees(off_by)
-    says = f"R is a valid rotation matrix, but it is wrong by {off} in every call."
+    angle = say_degrees(off_by)
+    says = f"R is a valid rotation matrix, but it is wrong by {angle} in every call."
     if np.ptp(off_by) >= 1e-3:
-        says = f"{NOT_THIS} {say_error(off)}"
+        says = f"{NOT_THIS} {say_error(angle)}"
     return Finding("rotation-off", says)
 
 
