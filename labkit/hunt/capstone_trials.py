@@ -82,7 +82,7 @@ def trials(
 
 @contextlib.contextmanager
 def _time_limit() -> Iterator[None]:
-    """Stop an attempt that takes longer than SECONDS, on a busy machine as on another."""
+    """Stop an attempt that takes longer than SECONDS, however busy the machine is."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         raise TimeoutError(f"it takes over {SECONDS} s of the processor's time")
