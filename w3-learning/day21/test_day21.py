@@ -167,8 +167,8 @@ def test_each_number_that_the_worksheet_asks_for_is_that_of_a_printed_row(printe
         return re.search(rf"measured (\S+): {re.escape(row)}", text)[1]
 
     asked = {
-        "late plans run from their first row, pucks of 100": "run from its first entry",
-        "late plans run from the row for now, pucks of 100": "run from the entry for",
+        "late plans run from their first row, pucks of 100": "run from its first row",
+        "late plans run from the row for now, pucks of 100": "run from the row for",
         "alarms of 40, puck 150 mm farther": "puck 150 mm farther",
         "alarms of 40, camera 30 mm off": "camera 30 mm off",
         "pucks of the regression, of 100": "squared error, 1 action",
