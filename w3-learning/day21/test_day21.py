@@ -234,7 +234,7 @@ def test_the_lag_with_an_inexact_feedforward_velocity():
 
 
 def test_a_comparison_with_itself_hides_differences():
-    assert "with the p-values 0.02 and 0.03, Holm's method finds both" in SENTENCES
+    assert "With the p-values 0.02 and 0.03, Holm's method finds both" in SENTENCES
     p = np.array([0.03, 0.02])
     assert evaluation.holm(p).all()
     assert not evaluation.holm(np.append(1.0, p)).any()
