@@ -57,8 +57,8 @@ class TestAnIndex:
             (
                 lambda x, at: float(np.argmin(np.abs(x - at))),
                 "not-an-index",
-                "0; expected an index, a whole number. Only a whole number can index "
-                "an array, so convert the result with int(...).",
+                "0; expected an index. Only a whole number can index an array, so "
+                "convert the result with int(...).",
             ),
             (
                 lambda x, at: x,
@@ -241,7 +241,7 @@ class TestATuple:
             (
                 lambda i, point, free: (i, (point, not free)),
                 "inverted",
-                "Free: your code swaps True and False",
+                "Your code swaps True and False. Free is wrong in all 5 calls.",
             ),
             (
                 lambda i, point, free: (i, (-point, free)),
@@ -251,13 +251,13 @@ class TestATuple:
             (
                 lambda i, point, free: (float(i), (point, free)),
                 "not-an-index",
-                "The place: your function returns",
+                "Your first result, the place, is 1.0; expected an index",
             ),
             (
                 lambda i, point, free: (i, point, free),
                 "parts",
-                "returns 3 results; expected 2 results: an index, a whole "
-                "number, a tuple of 2.",
+                "returns 3 results; expected 2 results: an index and a tuple of 2 "
+                "results.",
             ),
             (
                 lambda i, point, free: point,
@@ -320,20 +320,20 @@ class TestNone:
             (
                 lambda p, x: x * p,
                 "none-or-not",
-                "returns an answer for 2 inputs where None is expected (it is out "
-                "of reach)",
+                "Your function returns an answer in 2 of 6 calls; expected None (it "
+                "is out of reach).",
             ),
             (
                 lambda p, x: None if x < 1.5 else x * p,
                 "none-or-not",
-                "Your function returns None for 1 input with an answer",
+                "Your function returns None in 1 of 4 calls; expected an answer.",
             ),
             (
                 lambda p, x: None if x < 0 else -x * p,
                 "all-signs",
                 "Every entry of your result has the wrong sign",
             ),
-            (lambda p, x: None if x < 0 else p + x**3, "off", "off by up to"),
+            (lambda p, x: None if x < 0 else p + x**3, "off", "Largest error: "),
         ],
     )
     def test_is_right_or_wrong(self, function, slug, says):

@@ -58,7 +58,7 @@ def test_digits_suffice_to_tell_the_two_apart():
 def test_a_call_that_stops_is_named_too():
     asked = asked_with(np.sin)
     asked.main[1].reply = Reply(kind="KeyError", error="1.0")
-    assert failing_call(asked).call == "f(1) stops."
+    assert failing_call(asked).call == "f(1) stopped with an error."
     assert failing_call(asked_with(np.sin)) == Failing()
 
 
