@@ -99,6 +99,8 @@ def test_your_code_is_said_once_of_two_mistakes():
         "Your code has two mistakes. First, it adds 1. "
         "Second, it returns `x`, because it is 0."
     )
+    rule = both_told("your code adds 1. Add 2", "your code returns 0")
+    assert rule.endswith("First, your code adds 1. Add 2. Second, your code returns 0.")
     assert "Second, R is" in both_told("your code adds 1", "R is transposed")
 
 

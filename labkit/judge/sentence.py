@@ -24,6 +24,7 @@ from labkit.lesson.starter import function_lines
 
 MODULES = ("np", "se3", "screws", "math")
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
+ONCE = " in one place"  # of a change whose place is not quoted
 EVERYWHERE = ", in every similar line"  # of a change that is made in several places
 
 # What "your code" does, where the place of a change says no more.
@@ -95,7 +96,8 @@ def _sentences(m: Any, mutant: Mutant) -> str:
         return f"Your code {what(mutant, line)}. {where}"
     if texts := own_expressions(m, mutant):
         verb = "expression is" if len(texts) == 1 else "expressions are"
-        return f"Your code {what(mutant)}. The wrong {verb} {listed(texts)}."
+        does = what(mutant, given=_arguments(m, mutant)).removesuffix(ONCE)
+        return f"Your code {does}. The wrong {verb} {listed(texts)}."
     if tells(mutant):
         return f"{capitalised(told(m, mutant))}."
     # Another algorithm may have no such bracket or number, although its output is the
@@ -172,16 +174,21 @@ def told(m: Any, mutant: Mutant) -> str:
     if line := own_line(m, mutant):
         code = f", `{line.text}`" if len(line.text) <= LONG else ""
         return f"in line {line.number}{code}, your code {what(mutant, line)}"
+    given = _arguments(m, mutant)
     if texts := own_expressions(m, mutant):
-        does = what(mutant).removesuffix(EVERYWHERE)
+        does = what(mutant, given=given).removesuffix(EVERYWHERE).removesuffix(ONCE)
         return f"in {listed(texts)}, your code {does}"
-    given = dict(zip(mutant.body.arguments, m.case.names, strict=False))
     does = f"{what(mutant, given=given)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
         return f"your code {does}"
     where = " and ".join(f"for {of_a_step(step)}" for step in steps)
     comma = "," * ("," in where)
     return f"your code {where}{comma} {does.removesuffix(EVERYWHERE)}"
+
+
+def _arguments(m: Any, mutant: Mutant) -> dict[str, str]:
+    """Return the student's names of the reference's arguments."""
+    return dict(zip(mutant.body.arguments, m.case.names, strict=False))
 
 
 # Words with which a gloss begins that is no noun without an article.
@@ -230,7 +237,7 @@ def what(
         return place.says
     several = len(mutant.edits) > 1
     if mutant.kind == "factor" and (says := _of_a_factor(new, line, given)):
-        return says + ("" if line else EVERYWHERE if several else " in one place")
+        return says + ("" if line else EVERYWHERE if several else ONCE)
     says = _of_an_expression(mutant, place.node, new, line) or SAYS[mutant.kind]
     return says + EVERYWHERE * several
 
