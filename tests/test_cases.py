@@ -235,14 +235,14 @@ OF_THE_REVIEW = [
      "several joints move. Sometimes wrong: steps in which one joint moves; steps that "
      "reach the end of the motion."),
     (11, further, "ometimes wrong for steps that end before"),
-    (11, first_reach, "The result is correct for steps with equal radii"),
+    (11, first_reach, "Correct: steps with equal radii; links that touch"),
     (11, steep_only,
      "Correct: velocities that are allowed; gradients of 0. Sometimes wrong: "
      "velocities that are too fast, at a positive distance; velocities that are too "
      "fast, at a distance of 0 or less."),
     (11, shallow, "points beyond three faces. It is wrong for points in the box."),
-    (12, long_edges, "ometimes wrong for edges that "),
-    (12, coarse, "ometimes wrong for edges that start"),
+    (12, long_edges, "worlds without a disc. Sometimes wrong: edges that "),
+    (12, coarse, "worlds without a disc. Sometimes wrong: edges that start"),
     (12, capped, "Even for paths on which "),
 ]  # fmt: skip
 

@@ -66,7 +66,7 @@ def spans(x: Any, asked: Sequence[Any], right: Sequence[bool]) -> Iterator[Span]
 
 def _between(low: float, high: float, right: Set[float]) -> Span:
     """Return a range of a number; it contains an end that was answered rightly."""
-    ends = [(end, end in right) for end in (low, high)]
+    ends = (low, low in right), (high, high in right)
     left, last = ("<=" if there else "<" for _, there in ends)
     return Span(
         f"for `{number(low)} {left} {{}} {last} {number(high)}`",
