@@ -62,9 +62,10 @@ def test_one_counterexample_among_the_fresh_inputs_and_a_case_is_not_right():
 
 def test_fresh_inputs_are_drawn_only_while_a_case_may_be_right():
     known = []
-    says = told(toy(), lambda x: 3 * x + 1, known)
+    says = told(toy(), lambda x: x if abs(x) < 1 else 3 * x + 1, known)
     assert says == "Even for negative numbers, the result is sometimes wrong."
     assert known == []
+    assert told(toy(), lambda x: 3 * x + 1, known) == ""
     told(toy(), lambda x: 3 * x if x < 0 or 5 < x < 5.2 else x, known)
     refuted = len(known)
     told(toy(), lambda x: x, known)
@@ -101,6 +102,8 @@ def test_only_is_said_where_every_other_call_is_right():
     row.cases(bands)
     wrong = told(row, lambda x: 99.0 if 3 <= x < 6 else x / 2 if x < 0 else x)
     assert wrong == "The result is wrong only for numbers from 3 to 6."
+    some = told(row, lambda x: 99.0 if 3 <= x < 4 else x / 2 if x < 0 else x)
+    assert some == ("The result is sometimes wrong, but only for numbers from 3 to 6.")
 
 
 def test_a_case_that_is_partly_wrong_is_told_after_one_that_is_wrong():

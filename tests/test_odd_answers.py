@@ -7,7 +7,7 @@ import pytest
 from judged import alike, moved, redone
 from toyrows import row_of, told
 
-from labkit.judge import Finding, Matrix, Scalar, Vector
+from labkit.judge import Finding, Matrix, Scalar, Slip, Vector
 from labkit.judge.answers import capitalised
 from labkit.judge.draw import Edges
 
@@ -252,7 +252,7 @@ class TestATolerance:
 
     def test_is_told_where_it_is_measured(self):
         verdict = told(self.row(rtol=0.005), lambda x: 2.1 * x)
-        assert "beyond 0.005 of the largest" in verdict.measured[0]
+        assert "+ 0.005 of the largest entry" in verdict.measured[0]
 
 
 def test_edges_of_a_whole_number_are_the_first_and_the_last():
@@ -284,3 +284,19 @@ def test_a_truth_value_and_an_index_are_no_edge_that_moves():
 )
 def test_a_sentence_that_begins_with_a_symbol_keeps_it(clause, sentence):
     assert capitalised(clause) == sentence
+
+
+def test_an_exception_with_words_of_its_own_is_counted_where_other_calls_are_wrong():
+    slip = Slip("ZeroDivisionError", "", "at-0", "Your code divides by 0.")
+    inputs = [(float(x),) for x in range(1, 7)]
+    row = row_of(Scalar(), lambda x: 2.0 * x, lambda rng: inputs, slips=(slip,))
+
+    def function(x):
+        if x > 4:
+            raise ZeroDivisionError
+        return x * x + 1.0
+
+    assert told(row, function).message.startswith(
+        "Your code divides by 0. Your function stops with an error in 2 of 6 calls. "
+        "The result is also wrong in 3 of the other 4 calls. Largest error: 9."
+    )

@@ -205,7 +205,12 @@ def _told(*lists: Sequence[str]) -> str:
 
 
 def in_all_cases(cases: Cases, old: Answered, new: Answered) -> str:
-    """Return that no case is right, where some call of each is wrong."""
+    """Return that no case is right, where some call of each is wrong.
+
+    Where every call that was asked is wrong, that was said before.
+    """
+    if all(told == WRONG for _, told in old):
+        return ""
     wrong = [call for call, told in (*old, *new) if told == WRONG]
     if not all(any(of(call) for call in wrong) for of in cases.values()):
         return ""

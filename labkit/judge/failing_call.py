@@ -62,7 +62,7 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
     failing = [one for one, _ in not_accepted(asked)]
     for one in failing[:1]:
         assert one.reply
-        yours = (f"yours: {shown(one.reply.value)}",)
+        yours = (f"returned: {shown(one.reply.value)}",)
         which = "One" if len(failing) > 1 else "The"
         says = f"{which} failing call: {typed(one.question, names)}."
         whole = _given(one.question, names) + yours
@@ -166,9 +166,9 @@ def _wrong(
     whole = [*_given(one.question, names)]
     mine = split(ask.kind, one.reply.value)
     assert not isinstance(mine, Finding)
-    whole += [f"yours: {shown(value)}" for value in mine]
+    whole += [f"returned: {shown(value)}" for value in mine]
     pairs = zip(ask.kinds, right, strict=True)
-    whole += [f"right: {shown(kind.sent(values[0]))}" for kind, values in pairs]
+    whole += [f"expected: {shown(kind.sent(values[0]))}" for kind, values in pairs]
     compared = _compared(ask, part, given[part][0], right[part][0])
     example = Example(one.question, one.reply.value, tuple(x[0] for x in right))
     return Failing(f"{says} {entries}.", tuple(whole), compared, example)

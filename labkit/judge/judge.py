@@ -260,7 +260,7 @@ def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
             S = valid.taken(ask, asked.fresh, S)
             gap = ask.gaps(S, right_answers(ask, asked.fresh))
             off = float(gap.max())
-            lines = _counted(ask, gap, "with fresh inputs")
+            lines = _counted(ask, gap, "with new random inputs")
             measured += lines[1:]
         if off > ask.near:
             if np.isfinite(off):  # of the others only that they are right
@@ -351,7 +351,7 @@ def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
 
 def _measured(case: Case, S: Parts, T: Parts, gap: Array) -> tuple[str, ...]:
     ask = case.ask
-    lines = list(_counted(ask, gap, "that are always asked"))
+    lines = list(_counted(ask, gap, "that every check makes"))
     for kind, s, t in zip(ask.kinds, S, T, strict=True):
         lines += kind.measured(s, t)
     return (*lines, *(ask.measured(case) if ask.measured else ()))
@@ -359,11 +359,12 @@ def _measured(case: Case, S: Parts, T: Parts, gap: Array) -> tuple[str, ...]:
 
 def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
     """Return how far off calls are by their gaps, and how many are right."""
-    beyond = f" beyond {ask.rtol:.3g} of the largest" if ask.rtol else ""
+    more = f" + {ask.rtol:.3g} of the largest entry" if ask.rtol else ""
+    right = int(np.sum(gap <= ask.tolerance))
     return (
-        f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
-        f"of {len(gap)}; passes up to {ask.tolerance:.0e}{beyond})",
-        f"calls that are correct: {np.sum(gap <= ask.tolerance)} of {len(gap)} {which}",
+        f"largest error of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} of "
+        f"{len(gap)}; tolerance: {ask.tolerance:.0e}{more})",
+        f"correct calls: {right} of {len(gap)} {which}",
     )
 
 

@@ -166,10 +166,12 @@ def read(exchanges: Sequence[Exchange], ask: Ask, source: str = "") -> Parts | F
     replied = replies(exchanges)
     if broken := [reply for reply in replied if reply.kind]:
         text = f"{broken[0].kind}: {broken[0].error}"
+        often = in_calls(len(broken), len(replied))
         for slip in ask.slips:
             if re.search(slip.error, text) and re.search(slip.source, source):
-                return Finding(slip.slug, slip.says)
-        often = in_calls(len(broken), len(replied))
+                stops = f" Your function stops with an error {often}."
+                stops = stops if len(broken) < len(replied) else ""
+                return Finding(slip.slug, f"{slip.says}{stops}")
         return Finding("raises", stops_with(broken[0], often))
     nothing = sum(reply.value is None for reply in replied)
     if nothing and not getattr(ask.kind, "none", ""):

@@ -140,10 +140,10 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
             f"{in_calls(int(mirrored), len(S))}.",
         )
     off_by = degrees(S, T)
-    off = say_degrees(off_by)
-    says = f"Your rotation matrix is valid, but it is wrong by {off} in every call."
+    angle = say_degrees(off_by)
+    says = f"Your rotation matrix is valid, but it is wrong by {angle} in every call."
     if np.ptp(off_by) >= 1e-3:
-        says = f"{NOT_THIS} {say_error(off)}"
+        says = f"{NOT_THIS} {say_error(angle)}"
     return Finding("rotation-off", says)
 
 

@@ -81,8 +81,8 @@ def _(scores, share):
       instead, because no finite limit has the guarantee
     nan-if-few 2: your function returns -infinity if there are too few scores. Return
       infinity instead, which no score exceeds
-    infinite-too-soon: your code also returns infinity if the rank of the limit is n.
-      The limit is then the largest score, so return infinity only for a rank above n
+    infinite-too-soon: your function returns infinity even if the rank of the limit is
+      n. Return the largest score in this case, and infinity only for a rank above n
     without-ties: your code removes equal scores. Keep all n scores, because each score
       has its own rank
     gaussian: your code computes the limit as for a normal distribution. Use the rank of
