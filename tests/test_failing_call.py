@@ -8,11 +8,11 @@ from labkit.base.exchange import Question, Reply
 from labkit.check.report import matrix_of
 from labkit.judge import Matrix, Scalar, Vector
 from labkit.judge.answers import InTurn
-from labkit.judge.ask import SEED, Ask, Edges, right_answers
+from labkit.judge.ask import SEED, Ask, Edges, HeldOut, right_answers
 from labkit.judge.failing_call import Failing, failing_call
 from labkit.judge.judge import judge
 from labkit.judge.row import rows_of
-from labkit.judge.typed import typed
+from labkit.judge.typed import number, typed
 from labkit.lesson.day import all_days
 
 SINE = Ask(
@@ -53,6 +53,42 @@ def test_digits_suffice_to_tell_the_two_apart():
     says, *_ = failing_call(asked_with(lambda x: np.sin(x) + 1e-7 * (x == 1.0)))
     mine, its = says.removesuffix(".").split(" returned ")[1].split("; expected ")
     assert mine != its
+
+
+def held_out(status):
+    """Return a row that looks for a function that is 0 near 0."""
+    held = HeldOut(
+        "zero", "It is 0.", lambda rng: [(1e-6,)], lambda x: 0.0, status, near=1e-9
+    )
+    inputs = lambda rng: [(x,) for x in (0.5, 1.0, 2.0)]  # noqa: E731
+    return Ask(inputs, Scalar(), truth=np.sin, held_out=[held])
+
+
+def test_a_call_of_a_certain_mistake_is_shown_however_small_its_error():
+    def student(x):
+        return np.sin(x) if x > 1e-5 else 0.0
+
+    verdict = judge(asked_with(student, held_out("wrong")))
+    assert verdict.mistake == "zero"
+    assert verdict.call == "f(1e-06) returned 0; expected 1e-06."
+    assert judge(asked_with(student, held_out("close"))).call == ""
+    assert failing_call(asked_with(np.sin, held_out("wrong"))) == Failing()
+
+
+@pytest.mark.parametrize(
+    ("x", "text"),
+    [
+        (1.8999999999999998e-14, "1.9e-14"),
+        (0.1 + 0.2, "0.3"),
+        (float(np.log(2)), "np.log(2)"),
+        (-float(np.log(10)), "-np.log(10)"),
+        (0.6931471805, "0.6931471805"),
+        (123456.789, "123456.789"),
+    ],
+)
+def test_a_number_is_typed_with_few_digits_that_give_it_back(x, text):
+    assert number(x) == text
+    assert eval(text, {"np": np}) == pytest.approx(x, rel=1e-15)
 
 
 def test_a_call_that_stops_is_named_too():

@@ -44,7 +44,7 @@ def test_an_entry_is_printed_if_the_machine_names_it_when_all_these_are_deleted(
 
     (one,) = told_by_machine(day, row)
     assert (one.slug, one.source, one.shown) == ("twice", "slip", True)
-    assert "twice as large as it should be" in one.machine
+    assert "Your code uses twice `theta`. The wrong expression" in one.machine
     assert "`2 * theta`" in one.machine  # as it stands in the entry's own text
 
 

@@ -5,6 +5,7 @@ import pytest
 
 from labkit.judge.crossed import crossed
 from labkit.judge.neutral import neutrals
+from labkit.judge.ranges import spans
 from labkit.judge.right_when import Experiments
 from robo47 import se3
 
@@ -177,7 +178,19 @@ def ranged(conditions=()):
 
 
 def test_a_range_is_not_said_where_another_argument_ends_it():
-    assert "between" not in ranged()
+    assert "<" not in ranged()
+
+
+def test_a_range_contains_an_end_only_if_it_was_answered_rightly():
+    asked = [0.0, 0.5, 1.0, 2.0]
+    (span,) = spans(1.0, asked, [False, True, True, True])
+    assert span.says.format("zeta") == "for `0 < zeta <= 2`"
+    assert [*map(span.holds, (0.0, 1e-9, 2.0, 2.1))] == [False, True, True, False]
+    values = span.values(asked)
+    assert min(values) > 0.0
+    assert max(values) == 2.0
+    (span,) = spans(1.0, [0.1, 0.2, 0.3, 1.1], [True, True, True, False])
+    assert span.says == "for `0.1 <= {} < pi / 6`"
 
 
 def test_a_row_s_condition_is_said_where_it_holds_alone():

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from toyrows import row_of, told
 
+from labkit.base.exchange import Exchange, Question
 from labkit.judge import Scalar
 from labkit.judge.row import row_of as row_of_day
+from labkit.judge.unusual import beyond
 from labkit.lesson.day import find_day
 
 LIMIT = 2.0
@@ -30,6 +32,16 @@ def row():
 
 def right(x):
     return 2.0 * x if x < LIMIT else x
+
+
+def test_a_small_array_is_told_by_its_entries():
+    usual, *small = (
+        Exchange(Question("1.1", "f", (np.full(2, size), 1.0)))
+        for size in (1.0, 1e-4, 1e-5)
+    )
+    says = beyond(small, [usual], ["points", "step"])
+    assert "very small entries of `points`. The lab or a later task uses such" in says
+    assert says.endswith("affect the result for these entries?")
 
 
 @pytest.mark.parametrize(

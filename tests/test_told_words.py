@@ -19,6 +19,9 @@ from labkit.judge.answers import is_or_are, of_result
 from labkit.judge.matrix_kinds import part_off
 from labkit.judge.mistake import Finding, both_told
 from labkit.judge.results import as_sent, expected, flat_kinds, read
+from labkit.judge.rigid_kinds import rotation_wrong
+from labkit.judge.sentence import of_a_step
+from robo47.se3 import Rx
 
 
 def test_what_a_wrong_shape_comes_from_is_a_sentence():
@@ -88,6 +91,44 @@ def test_a_mistake_that_is_a_question_keeps_its_mark():
         "Your code has two mistakes. First, does your loop end one sample too early? "
         "Second, your code adds 1."
     )
+
+
+def test_your_code_is_said_once_of_two_mistakes():
+    says = both_told("your code adds 1", "your code returns `x`, because it is 0")
+    assert says == (
+        "Your code has two mistakes. First, it adds 1. "
+        "Second, it returns `x`, because it is 0."
+    )
+    rule = both_told("your code adds 1. Add 2", "your code returns 0")
+    assert rule.endswith("First, your code adds 1. Add 2. Second, your code returns 0.")
+    assert "Second, R is" in both_told("your code adds 1", "R is transposed")
+
+
+@pytest.mark.parametrize(
+    ("gloss", "step"),
+    [
+        ("row 1", "row 1"),
+        ("row i of J; the first is 0", "row i of J"),
+        ("row of the Jacobian", "the row of the Jacobian"),
+        ("entry [a, b] of the windows", "the entry [a, b] of the windows"),
+        ("cost-to-go after the last step: a number", "the cost-to-go after the last"
+         " step"),
+        ("J_site of the hand", "J_site of the hand"),
+        ("x of the hand", "x of the hand"),
+        ("(T, n)", 'the step "(T, n)"'),
+    ],
+)  # fmt: skip
+def test_a_gloss_has_an_article_where_a_noun_needs_one(gloss, step):
+    assert of_a_step(gloss) == step
+
+
+def test_a_rotation_is_yours_and_has_no_name_that_a_student_need_not_have():
+    T = np.stack([np.eye(3), Rx(0.5)])
+    S = np.stack([Rx(0.25), Rx(1.5)])
+    says = "Your rotation matrix is valid, but it is not the correct one."
+    assert rotation_wrong(S, T).message.startswith(f"{says} Largest error: ")
+    says = "Your rotation matrix R is not valid, because its columns are not"
+    assert rotation_wrong(2 * S, T).message.startswith(says)
 
 
 def test_truth_values_are_counted_in_calls_or_entries():

@@ -60,6 +60,16 @@ def test_another_method_is_told_so_and_does_not_pass():
     assert found.valid
 
 
+def test_of_another_method_with_a_named_mistake_one_remedy_is_told():
+    row = solving_row()
+    row.more["method"] = "Your result is another one. Compute the mean."
+    row.wrong("first", "your function returns `pair[0]`")(lambda pair: pair[0])
+    found = told(row, lambda pair: pair[0])
+    assert found.message.startswith(
+        "Your result is another one. Your function returns `pair[0]`. "
+    )
+
+
 def test_a_method_is_no_excuse_where_one_valid_answer_is_missed():
     found = told(solving_row(), lambda pair: pair[0] + (pair[0] == 3.0))
     assert not found.valid

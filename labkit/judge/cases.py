@@ -187,23 +187,21 @@ def sentence(cases: Cases, old: Answered, new: Answered) -> tuple[int, str] | No
     if len(right) > LISTED and len(wrong + mixed) == 1:
         (one,) = wrong + mixed
         if others[one].all(RIGHT) and tallies[one].enough:
-            how = "in some of the calls with" if mixed else "for"
-            return left, f"The result is wrong only {how} {one}."
-    some = [f"in some calls with {one}" for one in merged(mixed)[:LISTED]]
-    lists = (
-        ("The result is correct for", merged(right)[:LISTED]),
-        ("It is wrong for", merged(wrong)[:LISTED]),
-        ("It is wrong", some),
-    )
-    parts = [f"{how} {_listed(phrases)}." for how, phrases in lists if phrases]
-    return left, " ".join(parts)
+            how = "sometimes wrong, but" if mixed else "wrong"
+            return left, f"The result is {how} only for {one}."
+    return left, _told(*(merged(some)[:LISTED] for some in (right, wrong, mixed)))
 
 
-def _listed(phrases: Sequence[str]) -> str:
-    """Return phrases as a list; one with a comma in it asks for semicolons."""
-    if len(phrases) < 2 or not any("," in one for one in phrases):
-        return listed(phrases)
-    return f"{'; '.join(phrases[:-1])}; and {phrases[-1]}"
+def _told(*lists: Sequence[str]) -> str:
+    """Return the cases that are right, wrong and mixed: two sentences, or a list."""
+    every = [phrase for some in lists for phrase in some]
+    if len(every) > LISTED or any("," in phrase for phrase in every):
+        labels = zip(("Correct", "Wrong", "Sometimes wrong"), lists, strict=True)
+        return " ".join(f"{how}: {'; '.join(some)}." for how, some in labels if some)
+    right, *others = lists
+    pairs = zip(("wrong", "sometimes wrong"), others, strict=True)
+    bad = [f"{how} for {listed(some)}" for how, some in pairs if some]
+    return f"The result is correct for {listed(right)}. It is {', and '.join(bad)}."
 
 
 def in_all_cases(cases: Cases, old: Answered, new: Answered) -> str:
@@ -217,7 +215,7 @@ def in_all_cases(cases: Cases, old: Answered, new: Answered) -> str:
     if not all(any(of(call) for call in wrong) for of in cases.values()):
         return ""
     first = next(iter(cases))
-    return f"The result is wrong even in some calls with {first}."
+    return f"Even for {first}, the result is sometimes wrong."
 
 
 def _of(some: Answered, holds: Callable[[Call], bool], of: bool) -> list[str]:

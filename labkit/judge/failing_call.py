@@ -52,8 +52,10 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
     """
     held_out = zip(asked.held_out, asked.ask.held_out, strict=True)
     for some, held in [(asked.main, None), (asked.fresh, None), *held_out]:
-        if held and (held.mistaken or any(of_complex(one.question) for one in some)):
+        if held and any(of_complex(one.question) for one in some):
             continue  # pairs of numbers, which nobody types
+        if held and held.mistaken and not _is_wrong(held, asked.ask, some):
+            continue
         found = _broken(some, names) or _misfit(asked, some, names)
         if found := found or _wrong(asked, some, held, names):
             return found
@@ -66,6 +68,21 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
         whole = _given(one.question, names) + yours
         return Failing(says, whole, None, Example(one.question, one.reply.value))
     return Failing()
+
+
+def gives_away(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
+    """Return whether answers to held-out questions give the mistake away."""
+    S = read(exchanges, ask)
+    if isinstance(S, Finding):
+        return held.mistaken is None  # no answer is no sign of one certain mistake
+    S = S if held.mistaken else taken(ask, exchanges, S)
+    off = any(ask.too_far(held, S, right_answers(ask, exchanges, held)))
+    return off != bool(held.mistaken)
+
+
+def _is_wrong(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
+    """Return whether answers are those of a mistake; a close one needs no example."""
+    return held.status == "wrong" and gives_away(held, ask, exchanges)
 
 
 def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | None:
@@ -123,10 +140,12 @@ def _wrong(
     if isinstance(S, Finding):
         return None
     S = taken(ask, exchanges, S)
-    T = right_answers(ask, exchanges, held)
+    T = right_answers(ask, exchanges)
     relative = held is not None and held.relative
     gap = ask.shares(S, T) if relative else ask.gaps(S, T)
     limit = 1.0 if relative else ask.tolerance
+    if held and held.mistaken:  # its answers may be nearly right
+        limit = 0.0
     off = {i for i, _, got, its in replies_read.sizes(ask, exchanges) if got != its}
     gap[list(off)] = np.inf  # zeros that fill an answer up may be right
     if not (gap > limit).any():
@@ -140,7 +159,7 @@ def _wrong(
     given = read([one], ask)  # alone, in their own shapes
     assert one.reply
     assert not isinstance(given, Finding)
-    right = right_answers(ask, [one], held)
+    right = right_answers(ask, [one])
     part = _wrong_part(ask, given, right)
     place, entries = _entry(ask.kinds[part], given[part][0], right[part][0])
     says = f"{typed(one.question, names, LONG)}{places(ask.kind)[part]}{place}"

@@ -42,7 +42,7 @@ from labkit.judge.ask import (
     right_answers,
     stacked,
 )
-from labkit.judge.failing_call import Failing, failing_call, for_fresh
+from labkit.judge.failing_call import Failing, failing_call, for_fresh, gives_away
 from labkit.judge.guard import attempt, noting, quiet, told
 from labkit.judge.in_part import by_results, in_some_calls
 from labkit.judge.kinds import Kind
@@ -151,7 +151,8 @@ def _by_another_method(asked: Asked, S: Parts, names: Sequence[str]) -> Finding 
         case = _case(asked, S, T, names)
         named = sources.named(ask, case.arguments, S, T) or _unnamed(case)
     if named:
-        return Finding(named.slug, f"{ask.method} {named.message}")
+        first = re.split(r"(?<=\.) (?=[A-Z])", ask.method)[0]  # it has a remedy, too
+        return Finding(named.slug, f"{first} {named.message}")
     return Finding("another-method", ask.method)
 
 
@@ -266,7 +267,7 @@ def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
                 measured = (measured[1], *lines)
             return Verdict("wrong", *for_fresh(asked, main, S), measured)
     for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
-        if _found(held, ask, exchanges):
+        if gives_away(held, ask, exchanges):
             return Verdict(held.status, *_of_held_out(held, asked, exchanges), measured)
     return Verdict("passed", measured=measured)
 
@@ -280,7 +281,7 @@ def _far_off(asked: Asked) -> Finding | None:
     for held, exchanges in zip(ask.held_out, asked.held_out, strict=True):
         stricter = held.relative or (held.near or ask.near) < ask.near
         loose = held.of_close and not (stricter or held.mistaken)
-        if held.status == "wrong" and loose and _found(held, ask, exchanges):
+        if held.status == "wrong" and loose and gives_away(held, ask, exchanges):
             return _of_held_out(held, asked, exchanges)
     return None
 
@@ -289,18 +290,8 @@ def _of_held_out(held: HeldOut, asked: Asked, exchanges: Sequence[Exchange]) -> 
     """Return what is said of held-out questions that gave a mistake away."""
     if held.told is None:
         return Finding(held.slug, held.says)
-    failing = [one for one in exchanges if _found(held, asked.ask, [one])]
+    failing = [one for one in exchanges if gives_away(held, asked.ask, [one])]
     return Finding(held.slug, held.told(failing, asked.main))
-
-
-def _found(held: HeldOut, ask: Ask, exchanges: Sequence[Exchange]) -> bool:
-    """Return whether answers to held-out questions give the mistake away."""
-    S = replies_read.read(exchanges, ask)
-    if isinstance(S, Finding):
-        return held.mistaken is None  # no answer is no sign of one certain mistake
-    S = S if held.mistaken else valid.taken(ask, exchanges, S)
-    off = any(ask.too_far(held, S, right_answers(ask, exchanges, held)))
-    return off != bool(held.mistaken)
 
 
 def _further(asked: Asked) -> Further | None:

@@ -14,6 +14,7 @@ from robo47.checks import Array
 
 REDONE = "the reference solution with this mistake"
 BOTH = "the reference solution with both mistakes"
+YOUR_CODE = "your code "
 _BOTH = re.compile(r" => both$")
 
 
@@ -90,7 +91,12 @@ class Mistake:
 
 
 def both_told(first: str, second: str) -> str:
-    """Return two clauses on two mistakes as sentences."""
+    """Return two clauses on two mistakes as sentences; "your code" is said once.
+
+    After another subject, or a rule, it would not be clear what "it" is.
+    """
+    if first.startswith(YOUR_CODE) and ". " not in first:
+        first, second = (re.sub(f"^{YOUR_CODE}", "it ", one) for one in (first, second))
     says = as_sentence(f"First, {first}"), as_sentence(f"Second, {second}")
     return f"Your code has two mistakes. {' '.join(says)}"
 

@@ -3,7 +3,7 @@
 They are read from what was asked and how it was answered; `right_when` tries them.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
@@ -17,6 +17,7 @@ from robo47.checks import Array
 BEFORE_AND_AFTER = 1e-3  # how near the ends of a range it is asked
 LEAST = 3  # right answers in a range
 SMALL = 0.2  # of a usual entry: a limit below which an entry is taken for 0
+End = tuple[float, bool]  # of a range, and whether it is in the range
 BEYOND = 20.0  # how much larger than the least entry that is asked
 
 
@@ -24,7 +25,7 @@ BEYOND = 20.0  # how much larger than the least entry that is asked
 class Span:
     """One range of an argument."""
 
-    says: str  # "for `{}` between 0 and pi"
+    says: str  # "for `0 <= {} < pi`"
     holds: Callable[[Any], bool]  # whether a value of the argument is in it
     # From values of the argument, any, to values in the range, near its ends as well.
     values: Callable[[Sequence[Any]], list[Any]]
@@ -46,12 +47,8 @@ def spans(x: Any, asked: Sequence[Any], right: Sequence[bool]) -> Iterator[Span]
             says = f"whenever `{{}}` has a magnitude of {number(beyond[0])} or more"
             yield Span(says, partial(_above, beyond[0]), partial(_beyond, *beyond))
         elif between:
-            low, high = between
-            yield Span(
-                f"for `{{}}` between {number(low)} and {number(high)}",
-                partial(_inside, low, high),
-                partial(_between, low, high),
-            )
+            wrong = {x for x, ok in zip(asked, right, strict=True) if not ok}
+            yield _between(*between, set(asked) - wrong)
         return
     if not isinstance(x, np.ndarray) or x.ndim != 1 or x.dtype.kind != "f":
         return
@@ -67,8 +64,19 @@ def spans(x: Any, asked: Sequence[Any], right: Sequence[bool]) -> Iterator[Span]
             yield Span(says, partial(_above, low), partial(_lifted, low))
 
 
-def _inside(low: float, high: float, x: float) -> bool:
-    return low < x < high
+def _between(low: float, high: float, right: Set[float]) -> Span:
+    """Return a range of a number; it contains an end that was answered rightly."""
+    ends = (low, low in right), (high, high in right)
+    left, last = ("<=" if there else "<" for _, there in ends)
+    return Span(
+        f"for `{number(low)} {left} {{}} {last} {number(high)}`",
+        partial(_inside, *ends),
+        partial(_up_to, *ends),
+    )
+
+
+def _inside(low: End, high: End, x: float) -> bool:
+    return low[0] < x < high[0] or (x, True) in (low, high)
 
 
 def _beyond(low: float, high: float, some: Sequence[float]) -> list[float]:
@@ -80,10 +88,11 @@ def _above(low: float, x: Any) -> bool:
     return bool((np.abs(x) >= low).all())
 
 
-def _between(low: float, high: float, some: Sequence[float]) -> list[float]:
-    tiny = BEFORE_AND_AFTER * (high - low)
-    inside = np.linspace(low, high, len(some))[1:-1]
-    return [low + tiny, high - tiny, *map(float, inside)]
+def _up_to(low: End, high: End, some: Sequence[float]) -> list[float]:
+    tiny = BEFORE_AND_AFTER * (high[0] - low[0])
+    inside = np.linspace(low[0], high[0], len(some))[1:-1]
+    ends = low[0] + tiny * (not low[1]), high[0] - tiny * (not high[1])
+    return [*ends, *map(float, inside)]
 
 
 def _lifted(low: float, some: Sequence[Array]) -> list[Array]:

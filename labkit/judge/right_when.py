@@ -116,7 +116,7 @@ class Claim:
     """A sentence about a call, mostly of one argument, and inputs that satisfy it."""
 
     k: int  # which argument; -1 of several
-    says: str  # "whenever ed is 0", "for theta between 0 and pi"
+    says: str  # "whenever ed is 0", "for `0 < theta < pi`"
     calls: Sequence[Call]  # at which it is first tried
     holds: Callable[[Call], bool]  # whether a call satisfies it
     more: Callable[[], Sequence[Call]]  # those at which it is tried then

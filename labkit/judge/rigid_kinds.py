@@ -25,7 +25,7 @@ from labkit.judge.matrices import split
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
 
-NOT_THIS = "R is a valid rotation matrix, but not the correct one."
+NOT_THIS = "Your rotation matrix is valid, but it is not the correct one."
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ class Pose(Kind):
             return Finding("bottom-row", f"{says}pose.")
         t_off = say_mm(millimetres(t, t_true))
         if difference(R, R_true).max() <= RIGHT and t_off != "0":
-            says = "R is correct in every call, but the translation is not."
+            says = "The rotation is correct in every call, but the translation is not."
             return Finding("translation-off", f"{says} {say_error(t_off)}")
         slug, message = rotation_wrong(R, R_true)
         if t_off == "0":
@@ -122,24 +122,26 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
         size = "" if worst == "1" else f"; det R is {worst}, not 1"
         return Finding(
             "not-orthonormal",
-            "R is not a rotation matrix, because its columns are not orthonormal. "
+            "Your rotation matrix R is not valid, because its columns are not "
+            "orthonormal. "
             f"(R R^T differs from the identity matrix by {off:.2g}{size}.)",
         )
     X = np.abs(T.mT @ S)
     if matches(X, np.broadcast_to(np.round(X[0]), X.shape)):
         return Finding(
             "axes-mixed-up",
-            "The columns of R are the correct axes, but swapped or with a wrong sign. "
-            f"(det R is {np.linalg.det(S[0]):z.0f}.)",
+            "The columns of your rotation matrix R are the correct axes, but swapped "
+            f"or with a wrong sign. (det R is {np.linalg.det(S[0]):z.0f}.)",
         )
     if mirrored := np.sum(np.linalg.det(S) < 0.0):
         return Finding(
             "left-handed",
-            f"R is a reflection (det R = -1) {in_calls(int(mirrored), len(S))}.",
+            "Your rotation matrix R is a reflection (det R = -1) "
+            f"{in_calls(int(mirrored), len(S))}.",
         )
     off_by = degrees(S, T)
     angle = say_degrees(off_by)
-    says = f"R is a valid rotation matrix, but it is wrong by {angle} in every call."
+    says = f"Your rotation matrix is valid, but it is wrong by {angle} in every call."
     if np.ptp(off_by) >= 1e-3:
         says = f"{NOT_THIS} {say_error(angle)}"
     return Finding("rotation-off", says)

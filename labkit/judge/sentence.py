@@ -8,7 +8,8 @@ import ast
 import builtins
 import copy
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from labkit.judge.answers import SYMBOLS, capitalised, listed
@@ -22,6 +23,8 @@ from labkit.lesson.lab_module import definition
 from labkit.lesson.starter import function_lines
 
 MODULES = ("np", "se3", "screws", "math")
+NO_NAMES: Mapping[str, str] = MappingProxyType({})
+ONCE = " in one place"  # of a change whose place is not quoted
 EVERYWHERE = ", in every similar line"  # of a change that is made in several places
 
 # What "your code" does, where the place of a change says no more.
@@ -31,7 +34,7 @@ SAYS = {
     "order": "puts two operands in the wrong order",
     "left-out": "omits a part of the formula",
     "operation": "uses a wrong operator",
-    "sign-lost": "loses a sign, because it takes an absolute value",
+    "sign-lost": "makes a negative value positive",
     "name": "uses a wrong variable",
     "index": "uses a wrong index or range",
     "number": "uses a wrong number in the formula",
@@ -66,7 +69,7 @@ ORDERED = {ast.List: "entries", ast.Tuple: "entries", ast.Call: "arguments"}
 OF_A_PART = {
     ast.Add: "omits a term", ast.Sub: "omits a term",
     ast.Mult: "omits a factor", ast.MatMult: "omits a factor",
-    ast.Div: "omits a division", ast.Pow: "omits a power",
+    ast.Div: "omits a division", ast.Pow: "omits an exponent",
 }  # fmt: skip
 
 
@@ -93,7 +96,8 @@ def _sentences(m: Any, mutant: Mutant) -> str:
         return f"Your code {what(mutant, line)}. {where}"
     if texts := own_expressions(m, mutant):
         verb = "expression is" if len(texts) == 1 else "expressions are"
-        return f"Your code {what(mutant)}. The wrong {verb} {listed(texts)}."
+        does = what(mutant, given=_arguments(m, mutant)).removesuffix(ONCE)
+        return f"Your code {does}. The wrong {verb} {listed(texts)}."
     if tells(mutant):
         return f"{capitalised(told(m, mutant))}."
     # Another algorithm may have no such bracket or number, although its output is the
@@ -170,10 +174,11 @@ def told(m: Any, mutant: Mutant) -> str:
     if line := own_line(m, mutant):
         code = f", `{line.text}`" if len(line.text) <= LONG else ""
         return f"in line {line.number}{code}, your code {what(mutant, line)}"
+    given = _arguments(m, mutant)
     if texts := own_expressions(m, mutant):
-        does = what(mutant).removesuffix(EVERYWHERE)
+        does = what(mutant, given=given).removesuffix(EVERYWHERE).removesuffix(ONCE)
         return f"in {listed(texts)}, your code {does}"
-    does = f"{what(mutant)}{_or_transposed(mutant)}"
+    does = f"{what(mutant, given=given)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
         return f"your code {does}"
     where = " and ".join(f"for {of_a_step(step)}" for step in steps)
@@ -181,22 +186,34 @@ def told(m: Any, mutant: Mutant) -> str:
     return f"your code {where}{comma} {does.removesuffix(EVERYWHERE)}"
 
 
+def _arguments(m: Any, mutant: Mutant) -> dict[str, str]:
+    """Return the student's names of the reference's arguments."""
+    return dict(zip(mutant.body.arguments, m.case.names, strict=False))
+
+
 # Words with which a gloss begins that is no noun without an article.
 DETERMINERS = {
     "the", "a", "an", "its", "those", "each", "every", "both", "all", "no", "half",
-    "twice", "one", "two", "four", "at", "row",
+    "twice", "one", "two", "four", "at",
 }  # fmt: skip
+NUMBERED = re.compile(r"\w+ (\d+|[b-z])\b")  # "row 1" and "row i"
 ADVERBS = {"from", "without", "at", "up", "after", "inward", "outward", "true"}
 
 
 def of_a_step(gloss: str) -> str:
     """Return a gloss, "overdamped response", as it follows "your code for"."""
-    gloss = re.split(r"[:;] ", gloss)[0]
+    gloss = _briefly(gloss)
     first = gloss.partition(" ")[0]
     if first.lower() in ADVERBS or not first[:1].isalpha():
         return f'the step "{gloss}"'
-    symbol = len(first) == 1 or first in SYMBOLS or not first.isalpha()
-    return gloss if symbol or first.lower() in DETERMINERS else f"the {gloss}"
+    word = first.replace("-", "").isalpha() and len(first) > 1
+    bare = first.lower() in DETERMINERS or first in SYMBOLS or NUMBERED.match(gloss)
+    return f"the {gloss}" if word and not bare else gloss
+
+
+def _briefly(gloss: str) -> str:
+    """Return a gloss without what explains it: "row 1: the x axis" is "row 1"."""
+    return re.split(r"[:;] ", gloss)[0]
 
 
 def _or_transposed(mutant: Mutant) -> str:
@@ -205,18 +222,38 @@ def _or_transposed(mutant: Mutant) -> str:
     return ", or omits a transpose" if mutant.kind == "order" and product else ""
 
 
-def what(mutant: Mutant, line: Line | None = None) -> str:
+def what(
+    mutant: Mutant, line: Line | None = None, given: Mapping[str, str] = NO_NAMES
+) -> str:
     """Return what "your code" does that has a mutant's change.
 
     Args:
         mutant: one that gives the student's answers.
         line: the student's line, whose names may be said.
+        given: the student's names of the reference's arguments.
     """
     place, new = mutant.edits[0]
     if isinstance(place, Block):
         return place.says
+    several = len(mutant.edits) > 1
+    if mutant.kind == "factor" and (says := _of_a_factor(new, line, given)):
+        return says + ("" if line else EVERYWHERE if several else ONCE)
     says = _of_an_expression(mutant, place.node, new, line) or SAYS[mutant.kind]
-    return says + EVERYWHERE * (len(mutant.edits) > 1)
+    return says + EVERYWHERE * several
+
+
+def _of_a_factor(new: ast.expr, line: Line | None, given: Mapping[str, str]) -> str:
+    """Return which value is multiplied by 2 or 0.5, if it is one that can be named."""
+    match new:
+        case ast.BinOp(ast.Constant(2.0 | 0.5 as factor), ast.Mult(), value):
+            its = _own(value, line.names if line else given)
+        case _:
+            return ""
+    if not its or len(its) > LONG:
+        return ""
+    if line:
+        return f"multiplies `{its}` by {factor:g}"
+    return f"uses {'twice' if factor == 2.0 else 'half of'} `{its}`"
 
 
 def _of_an_expression(
@@ -224,22 +261,22 @@ def _of_an_expression(
 ) -> str:
     """Return how an expression differs, with names where a line is known, or ""."""
     is_sum = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub)
+    names = line.names if line else NO_NAMES
     if mutant.kind == "left-out":
         if isinstance(node, ast.BinOp):
             return OF_A_PART.get(type(node.op), "")
         taught = mutant.body.own and isinstance(node, ast.Call)
         if taught and _is_of_a_module(node.func):
             return f"omits `{ast.unparse(node.func)}`"
-    if mutant.kind == "factor" and (size := _size(new)):
-        return f"makes one value {size} as large as it should be"
-    if mutant.kind == "sign" and is_sum and (its := _own(node.right, line)):
+    if mutant.kind == "sign" and is_sum and (its := _own(node.right, names)):
         return f"reverses the sign of `{its}`"
-    if mutant.kind == "name" and isinstance(new, ast.Name) and (its := _own(new, line)):
-        return _another_name(mutant, node, new, its)
+    if mutant.kind == "name" and isinstance(new, ast.Name):
+        its = _own(new, names)
+        return its and _another_name(mutant, node, new, its)
     if mutant.kind == "order" and (parts := ORDERED.get(type(node))):
         return f"puts two {parts} in the wrong order"
     if mutant.kind == "order" and isinstance(node, ast.BinOp):
-        pair = [_own(one, line) for one in (node.left, node.right)]
+        pair = [_own(one, names) for one in (node.left, node.right)]
         if all(pair):
             return f"puts `{pair[0]}` and `{pair[1]}` in the wrong order"
     return ""
@@ -253,30 +290,23 @@ def _is_of_a_module(function: ast.expr) -> bool:
     return inner is not function and getattr(inner, "id", "") in MODULES
 
 
-def _size(new: ast.expr) -> str:
-    """Return "twice" of 2.0 * x, "half" of 0.5 * x, or ""."""
-    factor: Any = getattr(getattr(new, "left", None), "value", None)
-    product = isinstance(getattr(new, "op", None), ast.Mult)
-    return {2.0: "twice", 0.5: "half"}.get(factor, "") if product else ""
-
-
 def _another_name(mutant: Mutant, node: ast.expr, new: ast.Name, its: str) -> str:
     """Return which variable is wrong, and what belongs there if that has a gloss."""
-    meaning = mutant.body.meaning(new.id)
+    names = new.id, getattr(node, "id", "")
+    meaning, right = (_briefly(mutant.body.meaning(name)) for name in names)
     wrong = f"`{its}` ({meaning})" if meaning else f"`{its}`"
-    right = mutant.body.meaning(node.id) if isinstance(node, ast.Name) else ""
     other = f"another value ({right}) belongs" if right else "another value belongs"
     return f"uses {wrong} where {other}"
 
 
-def _own(node: ast.expr, line: Line | None) -> str:
+def _own(node: ast.expr, names: Mapping[str, str]) -> str:
     """Return an expression in the student's names; "" where one is not known."""
-    if line is None:
+    if not names:
         return ""
     found = copy.deepcopy(node)
     for one in (n for n in ast.walk(found) if isinstance(n, ast.Name)):
-        known = one.id in line.names
-        one.id = line.names.get(one.id, one.id)
+        known = one.id in names
+        one.id = names.get(one.id, one.id)
         if not known and isinstance(one.ctx, ast.Load) and one.id not in MODULES:
             return ""
     return ast.unparse(found)

@@ -14,6 +14,8 @@ import numpy as np
 from labkit.base.exchange import Question
 
 DUST = 4  # last bits that a sum or a product may leave
+TYPED = 12  # digits that a person may type
+LOGARITHMS = 10  # of whole numbers, up to which they are typed as such
 
 
 def typed(
@@ -95,8 +97,11 @@ def number(x: float) -> str:
             sign = "-" if times < 0 else ""
             many = "" if abs(times) == 1 else f"{abs(round(times))} * "
             return f"{sign}{many}pi" + (f" / {over}" if over > 1 else "")
-    if (short := round(x, 9)) and abs(x - short) <= DUST * np.spacing(abs(x)):
+    if abs(x - (short := float(f"{x:.{TYPED}g}"))) <= DUST * np.spacing(abs(x)):
         x = short  # 0.831, and not the 0.8310000000000001 of a sum
+    for n in range(2, LOGARITHMS + 1):
+        if abs(abs(x) - math.log(n)) <= np.spacing(1.0):
+            return f"{'-' * (x < 0)}np.log({n})"
     if x == round(x) and abs(x) < 1e6:
         return repr(round(x))
     text = re.sub(r"e\+0?", "e", f"{x:.6g}") if abs(x) >= 1e6 else ""  # 1e14

@@ -47,7 +47,8 @@ def _in_common(
     if len(found) != 1 or len(only := found.pop()) != 1:
         return None
     ((k, how),) = only
-    return f"very {how} values of `{names[k]}`", "values"
+    these = "entries" if np.ndim(as_plain(failing[0].question.args[k])) else "values"
+    return f"very {how} {these} of `{names[k]}`", these
 
 
 def _unusual(sizes: Sequence[float], ranges: Sequence[Range]) -> Iterator[Unusual]:
