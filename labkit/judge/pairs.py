@@ -238,10 +238,10 @@ class _Pairs:
         """Return whether two answer all calls alike; the first that differs ends it."""
         pairs = []
         for i in self.m.order:
-            pair = tuple(tuple(x[None] for x in some(i)) for some in (one, other))
-            if not all(pair) or not all_match(self.m.ask.kinds, *pair, SCREEN):
+            a, b = (tuple(x[None] for x in some(i)) for some in (one, other))
+            if not (a and b and all_match(self.m.ask.kinds, a, b, SCREEN)):
                 return False
-            pairs.append(pair)
+            pairs.append((a, b))
         if len({tuple(x.shape for x in mine) for mine, _ in pairs}) > 1:
             return False
         mine, its = (
