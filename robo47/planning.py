@@ -334,7 +334,8 @@ def travel_time(sd2: ArrayLike) -> float:
 
 
 def _nearest(tree: Array, q: Array) -> int:
-    return int(np.argmin(np.sum((tree - q) ** 2, axis=1)))
+    away = tree - q
+    return int((away * away).sum(axis=1).argmin())
 
 
 def _steer(q: Array, target: Array, step: float) -> Array:
@@ -348,9 +349,9 @@ def _disc_edge_free(a: Array, b: Array, discs: Array) -> bool:
     to_centres = discs[:, :2] - a
     squared = along @ along
     part = to_centres @ along / squared if squared > 0.0 else np.zeros(len(discs))
-    foot = np.clip(part, 0.0, 1.0)[:, None] * along
-    gaps = np.linalg.norm(to_centres - foot, axis=1)
-    return bool(np.all(gaps > discs[:, 2]))
+    foot = np.minimum(np.maximum(part, 0.0), 1.0)[:, None] * along
+    away = to_centres - foot
+    return bool(np.all(np.sqrt(np.sum(away * away, axis=1)) > discs[:, 2]))
 
 
 def _edge_free(a: Array, b: Array, world: Array | CollisionChecker) -> bool:
@@ -394,14 +395,17 @@ def _to_root(nodes: list[Array], parents: list[int]) -> list[Array]:
 
 def _range(a: Array, rest: Array, limits: Array) -> tuple[float, float]:
     """Return the bounds of u with |a u + rest| <= limits for every joint."""
-    pulls = a != 0.0
-    if np.any(np.abs(rest[~pulls]) > limits[~pulls]):
-        return math.inf, -math.inf
-    if not pulls.any():
-        return -math.inf, math.inf
-    middle = -rest[pulls] / a[pulls]
-    around = limits[pulls] / np.abs(a[pulls])
-    return float(np.max(middle - around)), float(np.min(middle + around))
+    low, high = -math.inf, math.inf
+    for pull, other, limit in zip(
+        a.tolist(), rest.tolist(), limits.tolist(), strict=True
+    ):  # for seven joints, plain numbers take a fifth of the time of arrays
+        if pull == 0.0:
+            if abs(other) > limit:
+                return math.inf, -math.inf
+            continue
+        middle, around = -other / pull, limit / abs(pull)
+        low, high = max(low, middle - around), min(high, middle + around)
+    return low, high
 
 
 def _reaches_next(
@@ -445,4 +449,6 @@ def _discs(value: ArrayLike) -> Array:
 
 def _world(world: World) -> Array | CollisionChecker:
     """Return a world of discs as an array, and any other as it is."""
+    if isinstance(world, np.ndarray):  # a protocol takes its time to say no
+        return _discs(world)
     return world if isinstance(world, CollisionChecker) else _discs(world)

@@ -267,6 +267,8 @@ class AtOnce(InTurn):
 
     def each(self, columns: Sequence[Any]) -> list[Any]:
         """Return the answers one by one; the last tells whether stacks are taken."""
+        if _count(columns) == 1:
+            return super().each(columns)
         with contextlib.suppress(Exception):
             end = [c[-1:] if isinstance(c, np.ndarray) else c for c in columns]
             (last,) = super().each(end)

@@ -197,6 +197,9 @@ class Ask:
     # a call's arguments that says whether a call is of that case.
     cases: Sequence[Mapping[str, Callable[..., bool]]] = ()
     rare: Sequence[Inputs] = ()  # draw calls of cases that `inputs` draws seldom
+    # Fresh calls of a case at which a sentence about it is tested, if its inputs allow
+    # it; fewer where a call takes long, but more than the 50 that a sentence needs.
+    each_case: int = 200
     # Whether a call with edge values has one right answer; None is yes.
     at_edge: Callable[..., bool] | None = None
     seconds: float = 0.0  # that a call of the reference takes; 0: it is measured here

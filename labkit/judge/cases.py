@@ -26,7 +26,6 @@ from labkit.judge.replies_read import read
 
 ASKED = 5  # calls of a case, and others, that were asked before it is tried
 TRIED = 50  # fresh calls of a case at which a sentence is tried, at least
-MOST = 200  # of a case, where its inputs allow it
 EACH = 2  # calls of a case that one generator yields in a round, at most
 ROUNDS = 100  # generators that draw them, at most
 SECONDS = 1.5  # for drawing and comparing them, and as many for the replies
@@ -233,11 +232,11 @@ def fresh_calls(
         before = [*counts]
         for call in some:
             of = [i for i, holds in enumerate(wanted) if holds(call)]
-            if any(counts[i] < min(MOST, before[i] + each) for i in of):
+            if any(counts[i] < min(ask.each_case, before[i] + each) for i in of):
                 for i in of:
                     counts[i] += 1
                 yield call
-        if min(counts) >= MOST:
+        if min(counts) >= ask.each_case:
             return
 
 

@@ -27,16 +27,18 @@ LEAST, TIMES = 100, 20
 SECONDS = 0.02  # at least
 LOOKS = 16  # steps, or hypotheses, after which the clock is looked at: it is slow
 HUGE = 10_000  # numbers of an array that a mutant may make, or ...
+LONG = 1_000  # of a range: all pairs of its numbers are made of it in the next step
 MANY = 1_000_000  # that a right function may make
 GROWS = 4  # steps after which variables are looked at: arrays may double at each
 LARGE = 1_000_000  # numbers of an array in a loop
+RANGES = ("arange", "linspace", "logspace", "geomspace")
 GUARDED = ("lstsq", "svd", "eigh", "eigvalsh", "eig", "eigvals", "pinv", "matrix_rank")
 
 
-LINES = 2_500_000  # that a search may execute; a third of a second, or so
+LINES = 1_250_000  # that a search may execute; a third of a second, or so
 CALL = 20  # lines of a Python function that a body calls, at least
 DEEP = 3  # functions that call each other, whose lines are counted
-ONCE = 400  # lines that it takes to compile a mutant and to compare its answer
+ONCE = 200  # lines that take as long as to compile a mutant and compare its answer
 LATE = 2.0  # seconds of the processor, whatever the lines take
 
 
@@ -65,7 +67,7 @@ class TooLongError(Exception):
     """A mutant takes more steps than any right function."""
 
 
-Measured = tuple[int, float, int, int]
+Measured = tuple[int, float, int, dict[str, int]]
 
 
 @dataclass
@@ -78,13 +80,15 @@ class Steps:
     ends: float = 0.0  # when a call has taken too long
     usual: int = 0  # steps of the right function
     lines: int = 0  # of Python, that it executes
-    largest: int = 0  # numbers of the largest array that it makes
-    room: int = MANY  # numbers of an array that may be made
+    # Numbers of the largest array that it makes, by the function that makes it; None
+    # before it is known.
+    largest: dict[str, int] | None = None
+    _made: dict[str, int] | None = None  # the same, while a right function is measured
 
     @property
     def measured(self) -> Measured:
         """What a call of the right function takes: steps, seconds, lines, numbers."""
-        return self.usual, self.seconds, self.lines, self.largest
+        return self.usual, self.seconds, self.lines, self.largest or {}
 
     @measured.setter
     def measured(self, measured: Measured) -> None:
@@ -94,7 +98,6 @@ class Steps:
     def _allow(self) -> None:
         """Allow a mutant some times what the right function takes."""
         self.most = self.left = LEAST + TIMES * self.usual
-        self.room = max(HUGE, TIMES * self.largest)
 
     def __call__(self, some: Iterable[Any] = ()) -> Iterator[Any]:
         """Yield some things, and count them."""
@@ -126,15 +129,27 @@ class Steps:
         self.ends = self.ends or now + self.seconds
         return now > self.ends
 
-    def make(self, numbers: float) -> None:
-        """Note that an array is to be made.
+    def make(self, numbers: float, name: str) -> None:
+        """Note that a function of NumPy is to make an array.
+
+        Args:
+            numbers: how many it will hold.
+            name: of the function.
 
         Raises:
             TooLongError: it is too large; filling it would take seconds.
         """
-        if numbers > self.room:
+        if numbers > self._room(name):
             raise TooLongError
-        self.largest = max(self.largest, int(numbers))
+        if self._made is not None:
+            self._made[name] = max(self._made.get(name, 0), int(numbers))
+
+    def _room(self, name: str) -> float:
+        """Return how many numbers an array may hold that a function makes."""
+        if self.largest is None:
+            return MANY
+        least = LONG if name in RANGES else HUGE
+        return max(least, TIMES * self.largest.get(name, 0))
 
     def limiting(self, code: Callable[..., Any]) -> Callable[..., Any]:
         """Return a function whose calls begin to count anew."""
@@ -154,12 +169,13 @@ class Steps:
             work: lines that it executes in each step.
         """
         self.most, self.left, began = MOST, MOST, time.process_time()
-        self.largest, self.room = 0, MANY
+        self.largest, self._made = None, {}
         with suppress(Exception):  # not all right bodies take what a lab's does
             call()
             self.usual = MOST - self.left
             self.seconds = SECONDS + TIMES * (time.process_time() - began)
         self.lines = work * max(self.usual, 1)
+        self.largest, self._made = self._made, None
         self._allow()
 
     @property
@@ -233,13 +249,15 @@ def _guarded(real: Callable[..., Any]) -> Callable[..., Any]:
     return call
 
 
-def _sized(real: Callable[..., Any], size: Code, steps: Steps) -> Code:
+def _sized(name: str, steps: Steps) -> Code:
+    real, size = getattr(np, name), SIZES[name]
+
     @wraps(real)
     def call(*args: Any, **options: Any) -> Any:
         numbers = 0.0
         with suppress(Exception):  # the real one says what is wrong with its arguments
             numbers = float(size(*args, **options))
-        steps.make(numbers)
+        steps.make(numbers, name)
         return real(*args, **options)
 
     return call
@@ -284,11 +302,11 @@ def _of_counts(x: Any, weights: Any = None, minlength: Any = 0) -> Any:
 # How many numbers a function makes of its arguments.
 SIZES: Mapping[str, Code] = {
     **dict.fromkeys(("zeros", "ones", "empty", "full", "indices"), _of_shape),
-    **dict.fromkeys(("linspace", "logspace", "geomspace"), _of_steps),
+    **dict.fromkeys(RANGES[1:], _of_steps),
     **dict.fromkeys(("outer", "kron"), _of_pairs),
     **dict.fromkeys(("eye", "identity", "tri"), _of_square),
     **dict.fromkeys(("diag", "diagflat"), _of_diagonal),
-    "arange": _of_range,
+    RANGES[0]: _of_range,
     "tile": _of_times,
     "repeat": _of_each,
     "bincount": _of_counts,
@@ -305,7 +323,7 @@ def numpy(steps: Steps) -> ModuleType:
     vars(linalg).update(vars(np.linalg))
     for name in GUARDED:
         setattr(linalg, name, _guarded(getattr(np.linalg, name)))
-    sized = {name: _sized(getattr(np, name), SIZES[name], steps) for name in SIZES}
+    sized = {name: _sized(name, steps) for name in SIZES}
     guarded = ModuleType("numpy")
     vars(guarded).update({**vars(np), "linalg": linalg, **sized})
     return guarded

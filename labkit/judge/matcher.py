@@ -28,6 +28,10 @@ from labkit.judge.results import numbers
 from robo47.checks import Array
 
 Code = Callable[..., Any]  # of one question's arguments, or an InTurn
+# Lines of a call that takes too long to screen all hypotheses there, and of one that
+# returns so early that it may hide some.
+COSTLY, BRIEF = 5000, 1000
+FIRST = 3  # calls, which an author writes by hand, are short as a rule
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +76,22 @@ class Calls:
         return any(None in kind.shape for kind in self.ask.kinds)
 
     def answer(self, code: Code, i: int) -> Parts:
-        """Return the answer to one call; () where there is none."""
+        """Return the answer to one call; () where there is none.
+
+        Those of a named mistake, which several sources ask for, are kept.
+        """
+        if not isinstance(code, InTurn):
+            return self._answer(code, i)
+        key = id(code), i
+        if key not in self._kept:  # an id stays that of what is kept
+            self._kept[key] = code, self._answer(code, i)
+        return self._kept[key][1]
+
+    @cached_property
+    def _kept(self) -> dict[tuple[int, int], tuple[Code, Parts]]:
+        return {}
+
+    def _answer(self, code: Code, i: int) -> Parts:
         try:
             if isinstance(code, InTurn):
                 found = parts(code.each(self._columns[i])[0])
@@ -167,8 +186,14 @@ class Matcher:
 
     @property
     def lines(self) -> int:
-        """How many lines a call of a right function executes, or so."""
-        return self.bodies[0].steps.lines if self.bodies else 0
+        """How many lines the last call of the right function has executed, or so.
+
+        Other arguments may take it as many steps as a mutant is allowed.
+        """
+        if not self.bodies:
+            return 0
+        body = self.bodies[0]
+        return body.steps.taken if body.loops else body.steps.lines
 
     @cached_property
     def wrong(self) -> Any:
@@ -177,8 +202,41 @@ class Matcher:
 
     @cached_property
     def i(self) -> int:
-        """The call at which hypotheses are screened: drawn inputs hide less."""
-        return int(self.wrong[-1]) if len(self.wrong) else self.furthest
+        """The call at which hypotheses are screened: drawn inputs hide less.
+
+        Where that takes long, it is the shortest of these that is not brief.
+        """
+        if not len(self.wrong):
+            return self.furthest
+        drawn = len(self.main) - self.ask.drawn
+        some = [i for i, n in self._lines.items() if n >= BRIEF and i >= drawn]
+        return min(some, key=self._lines.__getitem__, default=int(self.wrong[-1]))
+
+    @cached_property
+    def shortest(self) -> int:
+        """The call with a wrong answer that takes least, where the others take long."""
+        return min(self._lines, key=self._lines.__getitem__, default=self.i)
+
+    @cached_property
+    def _lines(self) -> dict[int, int]:
+        """How many lines the first wrong calls and the drawn ones take, by call.
+
+        It is empty where the last of them takes few.
+        """
+        wrong = self.wrong.tolist()
+        if not wrong or self._lines_at(wrong[-1]) <= COSTLY:
+            return {}
+        drawn = len(self.main) - self.ask.drawn
+        some = [i for i in wrong if i >= drawn]
+        return {i: self._lines_at(i) for i in (wrong[-1], *some, *wrong[:FIRST])}
+
+    def _lines_at(self, i: int) -> int:
+        """Return how many lines the lab's function executes in a call, or so."""
+        body = next(iter(self.ask.bodies), None)
+        if body is None or not body.loops:
+            return 0
+        body.calibrate(self.main.each[i])
+        return body.steps.lines
 
     @cached_property
     def furthest(self) -> int:
@@ -187,8 +245,8 @@ class Matcher:
 
     @cached_property
     def order(self) -> list[int]:
-        """All main calls, those that tell most first."""
-        wrong = [self.i, self.furthest, *self.wrong[::-1].tolist()]
+        """All main calls, those that tell most first, but before them a short one."""
+        wrong = [self.shortest, self.i, self.furthest, *self.wrong[::-1].tolist()]
         return list(dict.fromkeys([*wrong, *range(len(self.main))]))
 
     def holds(self, code: Code, digits: bool = True) -> bool:

@@ -4,7 +4,7 @@ Each half has a sentence that stands alone, or the pair is not told.
 """
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import combinations, islice
@@ -26,7 +26,7 @@ from labkit.judge.matcher import Code, Matcher, row
 from labkit.judge.mistake import BOTH, Finding, Mistake, both_told
 from labkit.judge.mutant import Mutant
 from labkit.judge.sentence import half
-from labkit.judge.sources import after, answered_near
+from labkit.judge.sources import SCREEN, after, answered_near
 from robo47.checks import Array
 
 # What one mistake alone leaves right, two need not: "all is right except that ...".
@@ -167,7 +167,7 @@ class _Pairs:
     def in_turn(self) -> Sequence[Mistake] | None:
         """Return a mistake made with arguments and one after it, or two options."""
         for first, second, code in self._that_combine():
-            if self._fits(self.m.main.answer(code, self.i)) and self.m.holds(code):
+            if self.m.holds(code):
                 return first, second
         return None
 
@@ -175,8 +175,10 @@ class _Pairs:
         """Yield pairs that can be made together.
 
         The first is made with arguments, or both are one function's with other options,
-        as `partial` gives them.
+        as `partial` gives them. Such options show at any call with a wrong answer, so
+        they are tried at one.
         """
+        first_look = self.i == self.m.i
         for i, first in enumerate(self.mistakes):
             one: Any = first.redo
             given = getattr(one.function, "given", None) or self._of_arguments.get(i)
@@ -186,7 +188,7 @@ class _Pairs:
                     continue
                 if given:
                     yield first, second, partial(after, other.function, given)
-                elif i < k and _options(one.function, other.function):
+                elif i < k and first_look and _options(one.function, other.function):
                     both = partial(one.function, **other.function.keywords)
                     yield first, second, both
 
@@ -197,24 +199,56 @@ class _Pairs:
         if self.m.right is None:
             return found
         call, names = self.m.main.each[self.i], self.m.case.names
+        tried = self.m.known.get("arguments", ()) if self.i == self.m.i else ()
+        known = {one.says: answer for one, _, answer in tried}
         for one in changes.likely(call, names):
             if self.m.effort.spent(KEEP):
                 break
-            self.m.effort.spend(self.m.lines)
             code = partial(after, self.m.right, one.change)
-            if answer := self.m.main.answer(code, self.i):
-                for k in self._that_give(answer, self.m.main.answers, code):
+            if (answer := known.get(one.says)) is None:
+                answer = self._charged(code, self.i)
+            if answer:
+                for k in self._that_give(answer, partial(self._charged, code)):
                     found.setdefault(k, one.change)
         return found
 
-    def _that_give(self, answer: Parts, every: Any, code: Any) -> Iterator[int]:
-        """Yield the first mistake that gives an answer at one call, and at all."""
+    def _charged(self, code: Code, i: int) -> Parts:
+        """Return the right function's answer to other arguments, which costs effort."""
+        answer = self.m.main.answer(code, i)
+        self.m.effort.spend(self.m.lines)
+        return answer
+
+    def _that_give(self, answer: Parts, other: Callable[[int], Parts]) -> Iterator[int]:
+        """Yield the first mistake that gives an answer at one call, and at all.
+
+        Args:
+            answer: to the call at which it is screened.
+            other: the answer to any call.
+        """
         for k, its in self.answers.items():
             if _alike(self.m, answer, its):
-                mine = self.m.main.answers(self.mistakes[k].redo)
-                if _all_alike(self.m, every(code), mine):
+                redo = self.mistakes[k].redo
+                if self._give_all(other, partial(self.m.main.answer, redo)):
                     yield k
                 return
+
+    def _give_all(
+        self, one: Callable[[int], Parts], other: Callable[[int], Parts]
+    ) -> bool:
+        """Return whether two answer all calls alike; the first that differs ends it."""
+        pairs = []
+        for i in self.m.order:
+            a, b = (tuple(x[None] for x in some(i)) for some in (one, other))
+            if not (a and b and all_match(self.m.ask.kinds, a, b, SCREEN)):
+                return False
+            pairs.append((a, b))
+        if len({tuple(x.shape for x in mine) for mine, _ in pairs}) > 1:
+            return False
+        mine, its = (
+            tuple(map(np.concatenate, zip(*some, strict=True)))
+            for some in zip(*pairs, strict=True)
+        )
+        return _all_alike(self.m, mine, its)
 
     @cached_property
     def _of_the_answer(self) -> list[Mistake]:
@@ -222,8 +256,11 @@ class _Pairs:
         (T,) = self.m.T
         found = []
         for change in changes.simple(T[0]):
-            answer = (np.asarray(change(T[self.i : self.i + 1]))[0],)
-            for k in self._that_give(answer, lambda c: (np.asarray(c(T)),), change):
+
+            def at(i: int, change: Code = change) -> Parts:
+                return (np.asarray(change(T[i : i + 1]))[0],)
+
+            for k in self._that_give(at(self.i), at):
                 found.append(replace(self.mistakes[k], redo=change))
         return found
 
@@ -300,9 +337,13 @@ def _one_factor(a: Parts, b: Parts, right: Parts) -> bool:
 
 
 def _add_up(m: Matcher, one: Code, other: Code, both: Together = _sum) -> bool:
-    """Return whether the differences of two hypotheses give all answers together."""
+    """Return whether the differences of two hypotheses give all answers together.
+
+    The call at which they were found comes last: it refutes none.
+    """
+    order = sorted(m.order, key=lambda i: i == m.i)
     for calls in filter(None, (m.main, m.fresh)):
-        for i in m.order if calls is m.main else range(len(calls)):
+        for i in order if calls is m.main else range(len(calls)):
             its = tuple(t[i] for t in calls.T)
             pair = calls.answer(one, i), calls.answer(other, i)
             if not all(pair) or not calls.difference.fits(i, both(*pair, its), True):

@@ -221,9 +221,10 @@ def with_other_arguments(m: Matcher) -> Iterator[tuple[changes.Change, Code, Par
         if m.effort.spent(KEEP_OF_ARGUMENTS):
             return
         code = partial(after, m.right, one.change)
-        answer = () if _leaves(one.change, call) else m.main.answer(code, m.i)
+        left = _leaves(one.change, call)
+        answer = () if left else m.main.answer(code, m.i)
         known.append((one, code, answer))
-        m.effort.spend(m.lines if answer else 0)
+        m.effort.spend(0 if left else m.lines)
         yield known[-1]
 
 

@@ -39,7 +39,7 @@ class _Trees:
 
     def __init__(self, how: Any, start: Array, goal: Array, world: Array) -> None:
         """Begin with both roots."""
-        self.how, self.world = how, world
+        self.how, self.world = how, planning._world(world)
         self.nodes = [start], [goal]
         self.parents = [0], [0]
 
@@ -47,7 +47,7 @@ class _Trees:
         """Add a node towards the target if its edge is free; return whether it was."""
         nodes = self.nodes[side]
         first = len(nodes) - 1 if self.how.grows == "newest" else 0
-        i, q, free = planning.extend(np.array(nodes[first:]), target, step, self.world)
+        i, q, free = planning._extend(np.array(nodes[first:]), target, step, self.world)
         if not (free if self.how.free is None else self.how.free):
             return False
         self.parents[side].append({

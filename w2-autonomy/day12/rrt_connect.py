@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 
 from labkit.judge import Row, Slip, Waypoints
+from labkit.judge.answers import once
 from robo47.planning import extend, rrt_connect
 
 from .planners import fault, of_a_planner, one_tree, planner
@@ -14,6 +15,7 @@ row = Row(
     Waypoints((None, None)),
     unnamed=of_a_planner,
     at_edge=lambda *call: False,  # trees on a grid are full of ties
+    each_case=80,  # a planner takes long, and its calls too
     slips=(
         ASKS,
         Slip(
@@ -31,6 +33,7 @@ row = Row(
 )
 
 
+@once  # two cases ask it of each call
 def connected(*call):
     """Return whether the planner that is asked for finds a path."""
     return bool(len(rrt_connect(*call)))
