@@ -29,7 +29,7 @@ def test_a_reversed_chain_and_a_factor_on_the_wrong_side_are_told_together():
 
     says = told(2, "2.6", fk_space=fk_space)
     assert "in the reverse order" in says
-    assert "has M to the left" in says
+    assert "multiplies by M on the left of the exponentials" in says
 
 
 def test_two_answers_in_the_other_order_that_both_lack_a_term():
@@ -39,7 +39,7 @@ def test_two_answers_in_the_other_order_that_both_lack_a_term():
 
     says = told(1, "1.7", translations_both_orders=translations_both_orders)
     assert "omits the translation of the left factor" in says
-    assert "are swapped" in says
+    assert "swaps the two translations" in says
 
 
 def test_one_mistake_that_gives_half_of_the_wrong_numbers_is_told_with_how_many():
