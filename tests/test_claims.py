@@ -115,7 +115,7 @@ def test_a_range_is_said_where_an_angle_has_one():
 
     says = told(1, "1.2", Rz=Rz)
     assert "whenever `theta`" not in says
-    assert "The result is correct for `theta` between 0 and pi." in says
+    assert "The result is correct for `0 <= theta < pi`." in says
 
 
 def test_a_small_angle_s_own_formula_never_passes_by_chance():

@@ -50,6 +50,31 @@ def phrases_in(text, phrases):
             yield phrase
 
 
+TOLD = {
+    RIGHT: r"(?:is correct for|Correct:) ",
+    WRONG: r"(?:It is wrong for|Wrong:) ",
+    "only": r"wrong(?:, but)? only for ",
+}
+END = re.compile(r"\.(?:\s|$)|, and sometimes wrong ")
+
+
+def lists_in(says):
+    """Yield the lists of cases in a sentence, each with its status."""
+    for status, words in TOLD.items():
+        _, *rest = re.split(words, says, maxsplit=1)
+        for some in rest:
+            yield status, END.split(some)[0]
+
+
+def test_a_condition_is_read_from_each_form_of_the_sentence():
+    says = "The result is correct for a. It is wrong for b, and sometimes wrong for c."
+    assert dict(lists_in(says)) == {RIGHT: "a", WRONG: "b"}
+    says = "Correct: a; b. Wrong: c; d. Sometimes wrong: e."
+    assert dict(lists_in(says)) == {RIGHT: "a; b", WRONG: "c; d"}
+    for says in ("wrong only for a.", "sometimes wrong, but only for a."):
+        assert dict(lists_in(f"The result is {says}")) == {"only": "a"}
+
+
 def printed(row, function):
     """Yield each condition of a wrong function: its words, what holds, its status.
 
@@ -68,14 +93,8 @@ def printed(row, function):
 
     by_phrase = {says: of for some in ask.cases for says, of in some.items()}
     says = in_cases(asked, answers)
-    told = {
-        RIGHT: "is correct for ",
-        WRONG: "It is wrong for ",
-        "only": "wrong only ",
-    }
-    for status, word in told.items():
-        _, _, rest = says.partition(word)
-        for phrase in phrases_in(re.split(r"\.(?:\s|$)", rest)[0], by_phrase):
+    for status, some in lists_in(says):
+        for phrase in phrases_in(some, by_phrase):
             yield phrase, functools.partial(of_call, by_phrase[phrase]), status, -1
     if not says:
         tried = experiments(asked, wrong[-QUESTIONS:], row.arguments, answers)

@@ -132,7 +132,7 @@ def test_what_is_said_to_be_right_is_right_to_the_last_digit_that_counts():
         return R
 
     says = told(2, "2.2", exp_rotation=exp_rotation)
-    assert "R is not a rotation" in says
+    assert "Your rotation matrix R is not valid" in says
     assert "between -pi / 3" not in says
 
 
