@@ -1,7 +1,7 @@
 """Looks of the class's page: colours, marks, and bars as inline SVG of any width.
 
-The words of a row are HTML above its bar, so a long label takes a second line instead of
-overlapping the words at the right. Widths are in per cent, so a chart on a phone has
+The words of a row are HTML above its bar, so a long label takes a second line and does
+not overlap the words at the right. Widths are in per cent, so a chart on a phone has
 shorter bars and not smaller letters. No script is needed.
 """
 
