@@ -56,15 +56,15 @@ def summary(result: Result) -> Summary:
         after=after,
         number=f"{result.place_mm:.0f} mm",
         of="the distance of the puck from its mark",
-        came="The arm goes around a puck on a side that it draws, pushes it home, and"
-        " does it again after a hand has moved the puck. The puck ends"
+        came="The policy samples a side. The arm goes around a puck on this side and"
+        " pushes it home, also after a hand has moved the puck. The puck ends"
         f" {result.place_mm:.0f} mm from its mark; the limit is 10 mm."
         if not result.stopped
         else f"The arm stops: {result.stopped}.",
         way=f"It goes around the puck on the {side}. The camera is at most"
         f" {result.seen_mm:.1f} mm off, and the sphere at most {result.lag_mm:.1f} mm"
-        " from its set point. It was one simulator, one puck, and one hand that moved"
-        " it.",
+        " from its set point. The test had one simulator, one puck and one movement by"
+        " a hand.",
         figures=figures(result),
     )
 
