@@ -291,10 +291,10 @@ def identify_payload(
 def min_pseudo_inertia_eig(phi: ArrayLike) -> Array:
     """Return the smallest eigenvalue of a body's pseudo-inertia matrix.
 
-    The pseudo-inertia is [[S, h], [h^T, m]] with h = m c and S = (tr(I) / 2) E - I,
-    where I is the inertia about the origin and E the identity matrix; S is the sum of m
-    r r^T over the points of the body (Wensing and others, 2018). For a body that can
-    exist, the eigenvalue is not negative.
+    The pseudo-inertia is [[Sigma, h], [h^T, m]] with h = m c and Sigma = (tr(I) / 2) E
+    - I, where I is the inertia about the origin and E the identity matrix. Sigma is the
+    sum of m r r^T over the points of the body (Wensing and others, 2018). For a body
+    that can exist, the eigenvalue is not negative.
 
     Args:
         phi: inertial parameters, (..., 10).

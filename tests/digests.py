@@ -12,7 +12,7 @@ import hashlib
 import re
 import sys
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -36,6 +36,7 @@ PROSE = {
     *("figure", "worksheet", "was", "retrospectives", "soon", "days"),
 }
 _ONLY_READ = re.compile(r"\.(md|png|webp|svg|cff)$|^bench/|^tests/catalogues\.txt$")
+_OUTPUTS = re.compile(r"<!-- run: .*?<!-- end -->", re.DOTALL)
 PINS = r"(?m)^(?:numpy|mujoco|scipy)==.*"  # of constraints.txt
 _DEFINITIONS = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 
@@ -67,11 +68,11 @@ def files_of(day: Day) -> set[Path]:
     return {*found, *(path for path in others if path.is_file())}
 
 
-def machine_digest(days: Iterable[Day]) -> str:
+def machine_digest(days: Sequence[Day]) -> str:
     """Return 16 digits that change when the machine or the code of these days does.
 
-    The machine is all that is committed outside the weeks' folders. Documents,
-    pictures, benchmarks and the records themselves do not count.
+    The machine is all that is committed outside the weeks' folders. Of documents only
+    the outputs count. Pictures, benchmarks and the records themselves do not.
 
     Raises:
         GitError: there is no repository that lists the files.
@@ -85,7 +86,16 @@ def machine_digest(days: Iterable[Day]) -> str:
         of_a_week = re.match(r"w\d+-", name) and not name.startswith(tuple(own))
         if not of_a_week and not _ONLY_READ.search(name):
             found.update(f"{line}\n".encode())
+    found.update("".join(_outputs(days)).encode())
     return found.hexdigest()[:16]
+
+
+def _outputs(days: Iterable[Day]) -> Iterator[str]:
+    """Yield the outputs in the documents of some days, with their commands."""
+    names = {day.folder / name for day in days for name in (day.guide, "README.md")}
+    for path in sorted({ROOT / "README.md", *names}):
+        if path.is_file():
+            yield from _OUTPUTS.findall(path.read_text("utf-8"))
 
 
 def missed(day: Day) -> list[str]:

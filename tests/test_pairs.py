@@ -151,7 +151,7 @@ def test_the_rank_of_what_is_hidden_is_not_a_cut():
         return Y.shape[1] - rank, condition
 
     says = told(8, "8.5", rank_and_condition=rank_and_condition)
-    assert "the number of singular values below rtol times" in says
+    assert "counts the singular values below rtol times" in says
 
 
 def test_a_result_that_is_right_is_said_to_be():
@@ -209,7 +209,7 @@ def test_of_two_mistakes_only_what_the_function_does_is_told():
 
     says = told(14, "14.6", reward=reward)
     assert "Your code has two mistakes. First, " in says
-    assert " Second, your reward for NaN is 0" in says
+    assert " Second, your code returns 0 for a height of NaN" in says
     assert "because the simulation failed" not in says
 
 

@@ -18,7 +18,7 @@ import conftest
 from conftest import ROOT, SKIPPED, copy_kit, keep_first_day
 from labkit.base import git
 from labkit.commands import kernels
-from labkit.lesson.day import find_day
+from labkit.lesson.day import all_days, find_day
 
 pytestmark = pytest.mark.kit
 W1 = "w1-foundations"
@@ -275,16 +275,19 @@ def test_the_catalogues_tests_ask_all_of_a_changed_day_and_some_of_another(
     assert not runs
 
 
+def item(path, name, mark):
+    """Return a collected test of a file, with its name and its mark."""
+    marked = partial(operator.eq, mark)
+    return SimpleNamespace(path=path, nodeid=name, get_closest_marker=marked)
+
+
 def test_of_a_days_authors_tests_a_tenth_is_left_where_it_has_not_changed(monkeypatch):
     monkeypatch.setattr(whole, "changed", lambda day: day.number == 1)
 
-    def item(folder, mark):
-        marked = partial(operator.eq, mark)
-        return SimpleNamespace(path=folder / "test_x.py", get_closest_marker=marked)
-
     first, other, house = find_day(1).own, find_day(5).own, ROOT / "tests"
-    items = [item(folder, "kit") for folder in (first, other, house) for _ in range(30)]
-    students = [item(other, "") for _ in range(30)]
+    folders = [folder for folder in (first, other, house) for _ in range(30)]
+    items = [item(folder / "test_x.py", "", "kit") for folder in folders]
+    students = [item(other / "test_x.py", "", "") for _ in range(30)]
     left = whole.left_out([*items, *students])
     assert len(left) == 27
     assert {one.path.parent for one in left} == {other}
@@ -296,6 +299,7 @@ def machine(tmp_path, monkeypatch):
     """Return a function that edits a small repository; is its machine recorded?"""
     copy = tmp_path / "kit"
     texts = {"labkit/a.py": "1", "w1-a/day1/b.py": "2", "w1-a/src/c.py": "3"}
+    texts["w1-a/docs/day1-lab.md"] = "<!-- run: make x -->\n0.1 m\n<!-- end -->\n"
 
     def edit(name, text):
         (copy / name).parent.mkdir(parents=True, exist_ok=True)
@@ -305,8 +309,13 @@ def machine(tmp_path, monkeypatch):
 
     copy.mkdir()
     subprocess.run(["git", "init", "-q"], cwd=copy, check=True)
+    week = copy / "w1-a"
     day = SimpleNamespace(
-        number=1, own=copy / "w1-a" / "day1", source=copy / "w1-a" / "src" / "c.py"
+        number=1,
+        folder=week,
+        guide="docs/day1-lab.md",
+        own=week / "day1",
+        source=week / "src" / "c.py",
     )
     monkeypatch.setattr(digests, "ROOT", copy)
     monkeypatch.setattr(whole, "RECORDS", copy / "tests" / "catalogues.txt")
@@ -323,7 +332,10 @@ def test_a_record_of_the_machine_holds_until_its_code_or_that_of_its_days_change
     machine,
 ):
     assert machine("README.md", "words")
-    assert machine("w1-a/docs/day1-lab.md", "words")
+    output = "<!-- run: make x -->\n{}\n<!-- end -->\n"
+    assert machine("w1-a/docs/day1-lab.md", "words\n" + output.format("0.1 m"))
+    assert not machine("w1-a/docs/day1-lab.md", output.format("0.2 m"))
+    assert whole.record_machine()
     assert machine("w2-b/day8/new.py", "another day")
     for name in ("labkit/a.py", "w1-a/day1/b.py", "w1-a/src/c.py", "tests/test_d.py"):
         assert not machine(name, "changed")
@@ -335,7 +347,7 @@ def test_with_the_machine_recorded_ci_leaves_out_most_tests_that_ask_about_no_ne
     monkeypatch,
 ):
     files = sorted((ROOT / "tests").glob("test_*.py"))
-    items = [SimpleNamespace(path=path, get_closest_marker=bool) for path in files]
+    items = [item(path, f"tests/{path.name}::test_it", "kit") for path in files]
     monkeypatch.setattr(whole, "machine_is_recorded", lambda: False)
     assert whole.left_out_of_machine(items) == []
     monkeypatch.setattr(whole, "machine_is_recorded", lambda: True)
@@ -343,6 +355,29 @@ def test_with_the_machine_recorded_ci_leaves_out_most_tests_that_ask_about_no_ne
     assert {"test_days_catalogue.py", "test_site.py", "test_docs.py"}.isdisjoint(left)
     alone = [path for path in files if not whole.EVERY_DAY.search(path.read_text())]
     assert len(left) == len(alone) - len(alone) // whole.FILES_PART
+
+
+@pytest.mark.parametrize("kernel", ["", "Prescott"])
+def test_with_the_machine_recorded_a_fifth_of_the_days_that_are_the_same_is_asked(
+    monkeypatch, kernel
+):
+    monkeypatch.setattr(whole, "changed", lambda day: day.number == 1)
+    monkeypatch.setattr(whole, "machine_is_recorded", lambda: True)
+    monkeypatch.setenv("OPENBLAS_CORETYPE", kernel)
+    path = ROOT / "tests" / "test_days.py"
+    days = [day.number for day in all_days()]
+    loops = [item(path, f"tests/test_days.py::test_it[day{n}]", "kit") for n in days]
+    other = item(path, "tests/test_days.py::test_another", "kit")
+    students = [
+        item(find_day(n).own / "t.py", f"w/day{n}/t.py::test", "") for n in days
+    ]
+    left = whole.left_out_of_machine([*loops, other, *students])
+    kept = [one for one in loops if one not in left]
+    assert loops[0] in kept
+    assert len(kept) == 1 + (len(days) - 1) // whole.FILES_PART
+    assert other not in left
+    assert students[0] not in left
+    assert bool([one for one in students if one in left]) == bool(kernel)
 
 
 @pytest.mark.parametrize(("nightly", "asked"), [("", "Prescott"), ("1", "--others")])

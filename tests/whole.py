@@ -14,7 +14,9 @@ ROBO47_DAY=3 have days tested wholly always.
 
 In the same way a line "machine 14: ..." says that `.ci/run` has passed, on a clean
 checkout, with the machine and Days 1 to 14 as they are. Until one of them changes, CI
-runs the authors' tests that loop over all days, and a fifth of the other files.
+runs a fifth of the files of authors' tests. A file that loops over all days is always
+run, on all days that have changed and on a fifth of the others. With another
+processor's kernels, CI runs a fifth of the other tests and of the documents as well.
 """
 
 import os
@@ -48,6 +50,7 @@ MARKS = "kit and not soak and not browser and not network"
 PART = 10  # one of so many is asked where nothing has changed
 FILES_PART = 5  # one of so many files is asked where the machine has not changed
 EVERY_DAY = re.compile(r"\b(all_)?days\(|\bweeks\(")  # asked of a new day as well
+DAY_OF = re.compile(r"(?:^w[^:]*/day|\[.*\bday)(\d+)")
 One = TypeVar("One")
 
 
@@ -94,24 +97,30 @@ def _machine(last: int) -> str:
 
 
 def left_out_of_machine(items: Sequence[pytest.Item]) -> list[pytest.Item]:
-    """Return the authors' tests of the machine that are not to be run: most, or none.
+    """Return the tests that are not to be run while the machine is as recorded.
 
     Args:
         items: the tests that are collected.
     """
-    folder = ROOT / "tests"
-    marks = ("kit", "browser", "network")
-    own = [
-        one
-        for one in items
-        if folder in one.path.parents and any(map(one.get_closest_marker, marks))
-    ]
-    if not own or not machine_is_recorded():
+    if not machine_is_recorded():
         return []
-    files = sorted({one.path for one in own})
+    kernel = os.environ.get("OPENBLAS_CORETYPE")
+    marks = ("kit", "browser", "network")
+    own = [one for one in items if kernel or any(map(one.get_closest_marker, marks))]
+    files = sorted({one.path for one in own if ROOT / "tests" in one.path.parents})
     alone = [path for path in files if not EVERY_DAY.search(path.read_text("utf-8"))]
     left = {*alone} - {*sample(alone, "machine", FILES_PART)}
-    return [one for one in own if one.path in left]
+    same = [day for day in all_days() if not changed(day)]
+    others = {day.number for day in same} - {
+        day.number for day in sample(same, "machine", FILES_PART)
+    }
+    return [one for one in own if one.path in left or _day_of(one) in others]
+
+
+def _day_of(item: pytest.Item) -> int:
+    """Return the number of the day that a test is about, 0 where it names none."""
+    name = DAY_OF.search(item.nodeid)
+    return int(name[1]) if name else 0
 
 
 def left_out(items: Sequence[pytest.Item]) -> list[pytest.Item]:
@@ -161,7 +170,7 @@ class Outcomes:
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Note the outcome of a test; a failure without a day is one of all days."""
-        name = re.search(r"(?:^w[^:]*/day|\[.*\bday)(\d+)", report.nodeid)
+        name = DAY_OF.search(report.nodeid)
         if not name and report.failed:
             self.failed |= {day.number for day in all_days()}
         elif name and not report.passed:

@@ -188,6 +188,14 @@ def rebuilt(
     return refill(document, makers if tables else makers | {"run": run}), drifted
 
 
+def documents() -> list[Path]:
+    """Return every document in which an output may stand."""
+    paths = [ROOT / "README.md", ROOT / "bench" / "README.md", FUNCTIONS]
+    paths += [ROOT / "docs" / "authors.md"]
+    paths += [path for week in weeks() for path in sorted(week.folder.rglob("*.md"))]
+    return [path for path in paths if path.is_file()]
+
+
 def documents_of(day: Day) -> dict[Path, bool]:
     """Return a day's documents and those that list it, and whether in a table alone."""
     names = filter(None, (day.guide, day.worksheet, "README.md"))
@@ -196,15 +204,15 @@ def documents_of(day: Day) -> dict[Path, bool]:
     return dict.fromkeys(own, False) | dict.fromkeys(shared, True)
 
 
-def renew(documents: Mapping[Path, bool], check: bool = False) -> int:
+def renew(asked: Mapping[Path, bool], check: bool = False) -> int:
     """Rebuild or check documents; return how many outputs were not as they are today.
 
     Args:
-        documents: and whether their tables alone.
+        asked: the documents, and whether their tables alone.
         check: write nothing.
     """
     drift = 0
-    for path, tables in documents.items():
+    for path, tables in asked.items():
         text, drifted = rebuilt(path.read_text("utf-8"), path.parent, tables=tables)
         for request in drifted:
             print(f"{shown(path)}: {'drifted' if check else 'new'}: {request}")
@@ -222,13 +230,10 @@ def main() -> int:
     parser.add_argument("--day", type=cli.day, metavar="N", help="its documents alone")
     options = parser.parse_args()
     if options.day is not None:
-        documents = documents_of(find_day(options.day))
+        asked = documents_of(find_day(options.day))
     else:
-        paths = [ROOT / "README.md", ROOT / "bench" / "README.md", FUNCTIONS]
-        paths += [ROOT / "docs" / "authors.md"]
-        paths += [p for week in weeks() for p in sorted(week.folder.rglob("*.md"))]
-        documents = dict.fromkeys(filter(Path.is_file, paths), False)
-    drift = renew(documents, options.check)
+        asked = dict.fromkeys(documents(), False)
+    drift = renew(asked, options.check)
     state = "drifted" if options.check else "renewed"
-    print(f"{len(documents)} documents, {drift} outputs {state}")
+    print(f"{len(asked)} documents, {drift} outputs {state}")
     return cli.EXIT_FAILED if drift and options.check else cli.EXIT_OK

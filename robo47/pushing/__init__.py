@@ -1,12 +1,13 @@
-"""The capstone of Week 3: the arm goes round a puck and pushes it home, twice.
+"""The capstone of Week 3: the arm goes around a puck and pushes it home, twice.
 
-What `make capstone` and `make proof` ask of it stands in `robo47.attempt`. A diffusion
-policy learns from demonstrations in a plane (Days 15 to 17) and moves a sphere in the
-Panda's hand: an eye sees the puck through a tray of glass (Day 19), the policy draws on
-which side it goes round the puck (Day 17), and what stands between its plans and the
-arm is Day 21's. After three seconds a hand moves the puck aside.
+`robo47.attempt` describes the interface for `make capstone` and `make proof`. A
+diffusion policy learns from demonstrations in a plane (Days 15 to 17) and moves a
+sphere in the Panda's hand. A camera, the eye, sees the puck through a glass tray (Day
+19). The policy draws plans, and with them the side on which the sphere goes around the
+puck (Day 17). The functions of Day 21 connect these plans with the arm. After three
+seconds a hand moves the puck aside.
 
-`attempt` is given the functions to do it with, one per name in `USES`: the library's
+`attempt` receives the functions that it calls, one per name in `USES`: the library's
 (`library()`), a student's, or a mixture.
 
 Units: metres, radians, seconds, kilograms, N m; positions in the plane are relative to
@@ -49,8 +50,8 @@ NAME = "the push"
 THING = "puck"
 GOAL = "at home within 10 mm, although a hand moved it"
 MORAL = (
-    "Each row has the worst numbers of three pucks. Home is no proof: compare the\n"
-    "error of the camera (seen), the lag, and the score of the guard (new)."
+    "Each row has the worst numbers of three pucks. A puck at home proves little:\n"
+    "compare the error of the camera (seen), the lag, and the guard's score (new)."
 )
 PUCKS = 3  # of each ablation
 NEAREST, FARTHEST = 0.14, 0.17  # m from home, of a random puck

@@ -18,7 +18,7 @@ from robo47.pushing.learning import ACTIONS, DENOISING, EXECUTED, Policy
 STARTS = 100
 STARTS_SEED = 1000
 DRAWS_SEED = 1
-WITHIN = 0.01  # m: closer to its mark than this, a puck is home
+WITHIN = 0.01  # m: closer to home than this, a puck is at home
 
 Row = tuple[Callable[[Any], Policy], int, int]  # policy, executed, steps of denoising
 
@@ -46,11 +46,11 @@ def league(
     Args:
         fns: has the functions of the push, by name.
         rows: names of ROWS; by default all.
-        ticks: of 0.1 s, after which a puck is home or not.
+        ticks: of 0.1 s, after which a puck is at home or not.
 
     Returns:
-        The k names, and whether the puck is within 10 mm of its mark at the end, (k,
-        n): as `compare_all` takes it.
+        The k names, and whether the puck is within 10 mm of home at the end, (k, n), as
+        `compare_all` expects it.
     """
     names = list(ROWS if rows is None else rows)
     return names, np.array([succeeds(fns, name, ticks) for name in names])

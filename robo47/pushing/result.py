@@ -15,7 +15,7 @@ LAG_MM = 15.0  # mm: a sphere that lags further does not follow its set point
 class Result(NamedTuple):
     """The result of a push."""
 
-    place_mm: float  # distance of the puck from its mark, at the end
+    place_mm: float  # distance of the puck from home, at the end
     time: float  # since when it stays home, s after the push began; nan if it does not
     left: bool  # the sphere goes around the puck on the left, seen towards home
     seen_mm: float  # worst error of the eye

@@ -2,7 +2,8 @@
 
 The puck slides on a glass tray, so the eye below it sees it whatever the arm does. The
 plane of Week 3's policy (`robo47.push`) is the plane of the centres of sphere and puck;
-its origin, home, is at HOME in the world. Metres, kilograms.
+its origin, home, is at HOME in the world. The geom "mark" is a green disc that shows
+home; nothing touches it. Metres, kilograms.
 """
 
 import mujoco

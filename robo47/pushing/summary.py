@@ -55,10 +55,10 @@ def summary(result: Result) -> Summary:
         before=phase_lines(result.phases, result.seconds),
         after=after,
         number=f"{result.place_mm:.0f} mm",
-        of="the distance of the puck from its mark",
+        of="the distance of the puck from home",
         came="The policy samples a side. The arm goes around a puck on this side and"
         " pushes it home, also after a hand has moved the puck. The puck ends"
-        f" {result.place_mm:.0f} mm from its mark; the limit is 10 mm."
+        f" {result.place_mm:.0f} mm from home; the limit is 10 mm."
         if not result.stopped
         else f"The arm stops: {result.stopped}.",
         way=f"It goes around the puck on the {side}. The camera is at most"

@@ -26,7 +26,7 @@ ROUND_SECONDS = 2.5  # s, in which the sphere goes around the puck
 PARTS = 5  # of a tick, when it looks ahead
 HAND_TICKS = 3  # in which a hand moves the puck, at a right angle to its way home
 
-HOME_MM = 10.0  # mm: a puck closer to its mark than this is home
+HOME_MM = 10.0  # mm: a puck closer to home than this is at home
 
 
 class Options(NamedTuple):

@@ -80,12 +80,12 @@ row.wrong(ends.fingertip_for_the_end)
 
 def stops_early(row, k, end):
     """Take the chains that end at link k, with its joint's rotation or without."""
-    says = f"your chain stops at link{k}. The chain should end at {end}"
+    says = f"your code ends the chain at link{k}. The chain should end at {end}"
     row.wrong("stops-early", says)(
         lambda model, q, path=PATH: fk(model, q, path[: k + 1])
     )
-    says = f"your chain stops at link{k} and omits the rotation of joint{k}. The chain "
-    says += f"should end at {end}"
+    says = f"your code ends the chain at link{k} and omits the rotation of joint{k}. "
+    says += f"The chain should end at {end}"
     row.wrong("stops-early", says)(
         lambda model, q, path=PATH: fk(model, q, path[:k]) @ link(model, path[k][0])
     )
@@ -100,8 +100,8 @@ for k in range(1, 8):
 
 @row.wrongs
 def _(model, q, path=PATH):
-    """home-whatever-q: your code does not use `q` and always returns the pose for the
-      ready configuration
+    """home-whatever-q: your code always returns the pose for the ready configuration.
+      Use the joint angles in `q` instead
     ready-subtracted: your code subtracts the angles of the ready configuration from
       `q`. Each joint should rotate by its entry in `q`
     """

@@ -37,20 +37,21 @@ def elsewhere(model, q, path=PATH):
     """hand-for-attachment-site: your code returns the pose of `hand`, which is a body
       of another model. Use `attachment_site`, whose frame differs from `hand` by a
       rotation of 180 degrees about z
-    finger-for-the-end: your code returns the pose of a finger. This Panda has no hand,
-      so the chain should end at the flange
+    finger-for-the-end: your code returns the pose of a finger. The model `panda_nohand`
+      has no fingers, so the chain should end at `attachment`
     fingertip-for-the-end: your code returns the pose of the tool centre point between
-      the fingertips. This Panda has no hand, so the chain should end at the flange
-    stops-at-link7: your chain stops at link7. Multiply by the fixed transform from
-      link7 to the end effector as well
-    flange-not-turned: your position is correct, but your code omits the flange's
-      rotation relative to link7
-    flange-turned-backwards: your position is correct, but your code rotates the flange
-      in the wrong direction. Use the flange's quaternion in the file unchanged
-    flange-turned-by-45: your position is correct, but your code rotates the flange by
-      45 degrees. Use the rotation that the flange's quaternion in the file represents
-    flange-not-moved: your rotation is correct, but your code omits the flange's offset
-      from link7
+      the fingertips. The model `panda_nohand` has no fingers, so the chain should end
+      at `attachment`
+    stops-at-link7: your code ends the chain at link7. Multiply by the fixed transform
+      from link7 to the end effector as well
+    flange-not-turned: your position is correct, but your code omits the rotation of
+      `attachment` relative to link7
+    flange-turned-backwards: your position is correct, but your code rotates
+      `attachment` in the wrong direction. Use the `quat` of `attachment` unchanged
+    flange-turned-by-45: your position is correct, but your code rotates `attachment` by
+      45 degrees. Use the rotation that the `quat` of `attachment` represents
+    flange-not-moved: your rotation is correct, but your code omits the offset of
+      `attachment` from link7
     flange-twice: your code applies the transform from link7 to the end effector twice.
       Apply it only once
     """
@@ -59,6 +60,6 @@ def elsewhere(model, q, path=PATH):
 
 
 def fingertip_for_the_end(model, q, path=PATH):
-    """your code returns the pose of the tool centre point between the fingertips. This
-    Panda has no hand, so the chain should end at the flange"""
+    """your code returns the pose of the tool centre point between the fingertips. The
+    model `panda_nohand` has no fingers, so the chain should end at `attachment`"""
     return fk(model, q, path) @ HANDS_TIP

@@ -60,8 +60,9 @@ def _(T):
       rotation and in the translation
     all-signs: your code negates every entry of T. Use the inverse of R as the rotation
       instead, and compute the translation from this inverse and t
-    minus-R: your code only negates R and t, but -R is a reflection (det = -1). Use the
-      inverse of R as the rotation instead
+    minus-R: your code only negates R and t. The matrix -R is a reflection, because its
+      determinant is -1. Use the inverse of R as the rotation instead, and compute the
+      translation from this inverse and t
     """
     R, t = split(T)
     return {

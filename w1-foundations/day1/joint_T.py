@@ -21,14 +21,14 @@ row.inputs(angles)
 
 @row.wrong
 def slides_along_z(q):
-    """your code translates the joint by q along z. The Panda's joints are revolute, so
-    rotate by q about z instead"""
+    """your code translates the link by `q` along the z axis. The Panda's joints are
+    revolute, so rotate the link by `q` about the z axis instead"""
     return pose(np.eye(3), np.array([0.0, 0.0, q]))
 
 
 row.reached_by(
     "Rz",
-    called={"theta = 0": "an angle of 0", "`theta`": "the angle", "theta": "the angle"},
+    called={"`theta` = 0": "an angle of 0", "`theta`": "the angle"},
 )
 # A joint does not move its body, so what is done to t changes nothing.
 row.of_answer(

@@ -27,7 +27,7 @@ for k in (1, 2, 3):
 for k, end in enumerate(("link5", "link6", "link7", "the end effector"), start=5):
     row.wrong(
         "too-long",
-        f"your chain continues to {end}. The chain should end at link4",
+        f"your code continues the chain to {end}. The chain should end at link4",
     )(lambda model, q, k=k: fk(model, q, PATH[: k + 1]))
 
 row.reached_by(
@@ -51,6 +51,6 @@ def _(model, q):
 
 @row.wrong
 def starts_late(model, q):
-    """your chain starts at link3. The chain should start at link0, because the file
-    gives the `pos` and `quat` of link3 relative to link2"""
+    """your code starts the chain at link3. The chain should start at link0, because the
+    file gives the `pos` and `quat` of link3 relative to link2"""
     return fk(model, q, PATH[3:5])

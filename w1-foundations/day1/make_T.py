@@ -25,9 +25,9 @@ def _(R, t):
       first rotates a point and then adds t
     t-turned-back: your code multiplies t by the transpose of R. Use t unchanged,
       because t is already expressed in the frame to which T maps
-    type-of-R: your array has the data type of R. If R contains integers, as in
-      `np.eye(3, dtype=int)`, NumPy truncates t to whole numbers. Create an array of
-      floats instead
+    type-of-R: your code creates an array with the data type of R. If R contains
+      integers, as in `np.eye(3, dtype=int)`, NumPy truncates t to whole numbers. Create
+      an array of floats instead
     """
     whole = np.array_equal(R, np.round(R))
     return {

@@ -84,12 +84,12 @@ def flange(case: Case) -> Finding | None:
 
     says = f"Your result is close, but it is off by {off:.1e}."
     if any(ends_in(make(FLANGE_QUAT)) for make in UNNORMALISED):
-        says += " The flange's quaternion in the file is rounded, so its norm is not "
-        says += "exactly 1. Normalise this quaternion."
+        says += " The quaternion of `attachment` in the file is rounded, so its "
+        says += "norm is not exactly 1. Normalise this quaternion."
         return Finding("flange-not-normalised", says)
     if ends_in(se3.Rz(0.75 * np.pi)):
-        says += " Your code rotates the flange by exactly 135 degrees, but the file "
-        says += "gives its quaternion to seven digits. Use this quaternion."
+        says += " Your code rotates `attachment` by exactly 135 degrees. Use the "
+        says += "quaternion in the file instead, which is rounded to seven digits."
         return Finding("flange-turned-exactly", says)
     return None
 

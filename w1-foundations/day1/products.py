@@ -15,9 +15,10 @@ from .panda_chain import PATH, fk, link, product, steps, turn
 
 def in_order(model, q, path=PATH):
     """joint-before-link: your code applies each joint's transform before the link's
-      transform. Apply the link's transform first, because its offset leads to the joint
-    chain-reversed: your product is in the reverse order. Multiply by each new transform
-      on the right
+      transform. Apply the link's transform first, because the joint rotates the link
+      about the link's own z axis
+    chain-reversed: your code multiplies the transforms in the reverse order. Multiply
+      by each new transform on the right
     links-on-the-left: your code multiplies by the link transforms on the left and by
       the joint transforms on the right. Multiply by both on the right
     joints-on-the-left: your code multiplies by the joint transforms on the left and by
@@ -37,8 +38,8 @@ def in_order(model, q, path=PATH):
 
 
 def chain_reversed(model, q, path=PATH):
-    """your product is in the reverse order. Multiply by each new transform on the
-    right"""
+    """your code multiplies the transforms in the reverse order. Multiply by each new
+    transform on the right"""
     return product(L @ J for L, J in steps(model, q, path[::-1]))
 
 
@@ -58,8 +59,8 @@ def on_each_other(model, q, path=PATH):
       file without rotating them. Rotate each offset first, because it is expressed in
       the frame of its parent body
     point-with-w-0: your rotation is correct, but your translation is only the rotated
-      offset of `attachment`. The fourth coordinate of a point should be 1, not 0,
-      because the transform should also translate the point
+      offset of `attachment`. Add the position of the previous body as well. In
+      homogeneous coordinates, the fourth coordinate of a point is 1, not 0
     inertial-frames: your code uses `ipos` and `iquat`, which describe a body's inertial
       frame. Use `pos` and `quat` instead, which describe the body frame
     inertial-turns: your code uses `iquat`, which is the orientation of a body's
@@ -98,7 +99,7 @@ def inertial(model, q, path, place):
 
 def offset_turned_too_late(model, q, path=PATH):
     """your rotation is correct, but your code updates the rotation before it adds the
-    link's offset. Multiply the offset by the previous rotation instead"""
+    link's offset. Multiply the offset by the rotation of the previous body instead"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         R = R @ L[:3, :3] @ J[:3, :3]

@@ -55,7 +55,7 @@ NOT_NORMALISED = (
 )
 XYZW_AND_NOT_NORMALISED = (
     "your code reads the quaternion as (x, y, z, w) and does not normalise it. "
-    "MuJoCo uses the order (w, x, y, z)"
+    "Use MuJoCo's order (w, x, y, z), and normalise the quaternion"
 )
 
 
@@ -63,8 +63,8 @@ XYZW_AND_NOT_NORMALISED = (
 def _(quat):
     """wxyz-read-as-xyzw: your code reads the quaternion as (x, y, z, w). Use MuJoCo's
       order instead, which is (w, x, y, z)
-    xyzw-rolled-wrongly: your code shifts the components in the wrong direction, so it
-      reads the quaternion as (y, z, w, x). MuJoCo uses the order (w, x, y, z)
+    xyzw-rolled-wrongly: your code reads the quaternion as (y, z, w, x). Use MuJoCo's
+      order instead, which is (w, x, y, z)
     half-angle: your code rotates by half the correct angle. The component w is the
       cosine of half the rotation angle, not of the rotation angle itself
     short-ones-kept: your code normalises the quaternion only if its norm is above 1.

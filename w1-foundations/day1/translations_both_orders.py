@@ -75,14 +75,14 @@ HALVES = {
     "subtracted": "your code subtracts the left factor's translation instead of "
     "adding it",
     "summed-by-columns": "your code multiplies R and the right factor's translation "
-    "entry by entry (R * t) and sums each column. Use R @ t instead, which sums each "
-    "row",
+    "entry by entry (`R * t`) and sums each column. Use `R @ t` instead, which sums "
+    "each row",
     "summed-by-entries": "your code multiplies each row of R by only one entry of t. "
-    "Use R @ t instead, which multiplies each row by the whole vector t",
+    "Use `R @ t` instead, which multiplies each row by the whole vector t",
     "diagonal-only": "your code multiplies the right factor's translation only by "
-    "the diagonal of R. Use R @ t instead, which uses all entries of R",
-    "entries-of-4x4": "your code multiplies the two 4x4 matrices entry by entry (A * "
-    "B). Use the matrix product instead",
+    "the diagonal of R. Use `R @ t` instead, which uses all entries of R",
+    "entries-of-4x4": "your code multiplies the two 4x4 matrices entry by entry "
+    "(`A * B`). Use the matrix product instead",
 }
 
 
@@ -118,8 +118,8 @@ def _other_order(R_a, t_a, R_b, t_b):
 
 
 for which, product, two in (
-    ("first", "T_world_ee @ T_extra", (_other_order, right)),
-    ("second", "T_extra @ T_world_ee", (right, _other_order)),
+    ("first", "`T_world_ee @ T_extra`", (_other_order, right)),
+    ("second", "`T_extra @ T_world_ee`", (right, _other_order)),
 ):
     says = (
         f"your code computes the {which} translation with the two factors swapped. The "
@@ -128,8 +128,8 @@ for which, product, two in (
     row.wrong("same-order-twice", says)(both(*two))
 row.wrong(
     "orders-swapped",
-    "your two translations are swapped. The first translation belongs to "
-    "T_world_ee @ T_extra",
+    "your code swaps the two translations. The first translation belongs to "
+    "`T_world_ee @ T_extra`",
 )(both(_other_order))
 
 

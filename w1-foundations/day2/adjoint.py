@@ -21,15 +21,15 @@ def _(rng):
 
 @row.wrongs
 def _(T):
-    """block-top-right: your block [p] R is in the upper right, as for wrenches and for
-      twists (v; omega). In this course omega comes first, so the block belongs in the
-      lower left
-    no-lever-arm: your lower left block is 0. This block should be [p] R, because v
-      depends on omega if the origins of the two frames differ
-    on-both-sides: both of your off-diagonal blocks are [p] R. The upper right block
-      should be 0, because omega does not depend on v
-    last-block-zero: your two lower blocks are [p] and 0. The lower blocks should be [p]
-      R and R
+    """block-top-right: your code puts the block [p] R in the upper right, as for twists
+      in the order (v; omega). In this course omega comes first, so the block belongs in
+      the lower left
+    no-lever-arm: your code sets the lower left block to 0. This block should be [p] R,
+      because v depends on omega if the origins of the two frames differ
+    on-both-sides: your code puts [p] R in both off-diagonal blocks. The upper right
+      block should be 0, because omega does not depend on v
+    last-block-zero: your code uses [p] and 0 as the two lower blocks. The lower blocks
+      should be [p] R and R
     R-turned-back: your code transposes R in every block. Use R itself
     transposed: your code returns the transpose of the adjoint, which maps wrenches
       instead of twists

@@ -22,8 +22,8 @@ def _(rng):
 def _(screws, M):
     """adjoint-of-M: your code uses the adjoint of M, which maps twists from the
       end-effector frame to the world frame. Use the adjoint of the inverse of M
-    from-the-right: your adjoint is correct, but your code computes screws @ Ad. Use the
-      transpose of Ad instead, because each screw is a row of the array
+    from-the-right: your adjoint Ad is correct, but your code computes `screws @ Ad`.
+      Use the transpose of Ad instead, because each screw is a row of the array
     unchanged: your code returns the screws unchanged, so they are still expressed in
       the world frame. Express them in the end-effector frame
     transposed-for-inverse: either your code transposes Ad(M) instead of inverting it,

@@ -41,16 +41,16 @@ ONE_TABLE = "the lab has one table"
 
 @row.wrongs(hidden={"flange-typed-in": ONE_TABLE, "table-not-used": ONE_TABLE})
 def _(table, q):
-    """flange-missing: your product omits the eighth row, so your code returns the pose
-      of link7 instead of the flange pose
-    flange-turned: your code rotates the eighth row by the last joint's angle. Use the
+    """flange-missing: your code omits the eighth row of the table, so it returns the
+      pose of link7 instead of the flange pose
+    flange-turned: your code uses the last joint's angle for the eighth row. Use the
       angle 0 for this row, because the flange does not rotate relative to link7
     theta-one-row-late: your code uses each angle one row too late. The angle of the
-      first row should be q[0], because this row belongs to joint1
+      first row should be `q[0]`, because this row belongs to joint1
     theta-one-row-early: your code uses each angle one row too early. The angle of the
-      first row should be q[0], because this row belongs to joint1
-    product-reversed: your matrices are in the reverse order. The matrix of the link
-      nearest to the base belongs on the left
+      first row should be `q[0]`, because this row belongs to joint1
+    product-reversed: your code multiplies the matrices in the reverse order. The matrix
+      of the link nearest to the base belongs on the left
     multiplied-by-entries: your code multiplies the link matrices entry by entry. Use
       the matrix product instead
     last-link-only: your loop overwrites the product, so only the last row has an effect

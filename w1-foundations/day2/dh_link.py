@@ -46,13 +46,12 @@ def in_order(order, alpha, a, d, theta):
 
 @row.wrongs
 def _(alpha, a, d, theta):
-    """standard-formula: your matrix follows the standard convention, Rz Tz Tx Rx.
-      Franka's table follows Craig's convention, so rotate about x first
-    a-after-theta: your rotation is correct, but your translation by `a` comes after the
-      rotation about z. The translation by `a` should come before this rotation
-    d-along-the-old-z: your rotation is correct, but your translation by `d` comes
-      before the rotation about x. The translation by `d` should come after this
-      rotation
+    """standard-formula: your code uses the standard convention, Rot_z Trans_z Trans_x
+      Rot_x. Franka's table follows Craig's convention, so rotate about x first
+    a-after-theta: your code translates by `a` after the rotation about z. The
+      translation by `a` should come before this rotation
+    d-along-the-old-z: your code translates by `d` before the rotation about x. The
+      translation by `d` should come after this rotation
     order-of-moves: your four factors are correct, but their order is wrong. The
       translation by `a` belongs next to the rotation about x. The translation by `d`
       belongs next to the rotation about z
@@ -71,14 +70,15 @@ def _(alpha, a, d, theta):
 for order in ("zxXZ", "XzxZ", "XzZx"):
     row.wrong(
         "order-of-moves",
-        "your rotation about z comes before the rotation about x. The rotation about x "
-        "by alpha should come first",
+        "your code rotates about z before it rotates about x. The first factor "
+        "should be the rotation about x, as in the docstring",
     )(partial(in_order, order))
 
 
 @row.wrongs
 def _(alpha, a, d, theta):
-    """both-turns-backwards: both of your rotations are in the wrong direction
+    """both-turns-backwards: your code rotates by -alpha and by -theta. Use both angles
+      unchanged
     radians-taken-for-degrees: your code converts both angles from degrees to radians.
       Use both angles unchanged, because they are already in radians
     alpha-forgotten: your code does not use the argument `alpha`

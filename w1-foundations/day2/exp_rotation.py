@@ -53,22 +53,23 @@ def _(axis, theta):
       are equal
     identity-missing: your code omits the identity matrix. This term is needed because a
       rotation by 0 is the identity matrix
-    cosine-for-one-minus-cosine: your coefficient of K^2 is cos(theta). The coefficient
-      should be 1 - cos(theta), which is 0 at theta = 0
-    one-minus-sine: your coefficient of K^2 is 1 - sin(theta). The coefficient should be
-      1 - cos(theta), which is 0 at theta = 0
+    cosine-for-one-minus-cosine: your code uses cos(theta) as the coefficient of K^2.
+      The coefficient should be 1 - cos(theta), which is 0 at theta = 0
+    one-minus-sine: your code uses 1 - sin(theta) as the coefficient of K^2. The
+      coefficient should be 1 - cos(theta), which is 0 at theta = 0
     sin-and-cos-swapped: your code swaps the sine and the cosine, so the matrix is not
       the identity at theta = 0
     coefficients-swapped: your code swaps the coefficients of K and K^2. The coefficient
       of K should be sin(theta), and the coefficient of K^2 should be 1 - cos(theta)
-    first-order-only: your series ends after the term theta K, so the matrix is accurate
-      only for small angles. Use the closed form with the sine and the cosine
-    second-order-only: your series ends after the theta^2 term, so the matrix is
+    first-order-only: your code ends the series after the term theta K, so the matrix is
       accurate only for small angles. Use the closed form with the sine and the cosine
-    cosine-before-identity: your code multiplies the identity matrix by cos(theta). This
-      factor belongs to the formula with axis axis^T, not to the formula with K^2
-    half-angle-not-squared: your coefficient of K^2 is 2 sin(theta / 2). The coefficient
-      should be 1 - cos(theta), which equals 2 sin(theta / 2)^2
+    second-order-only: your code ends the series after the theta^2 term, so the matrix
+      is accurate only for small angles. Use the closed form with the sine and the
+      cosine
+    cosine-before-identity: your code multiplies the identity matrix by cos(theta). Omit
+      this factor, which belongs only to the formula with axis axis^T
+    half-angle-not-squared: your code uses 2 sin(theta / 2) as the coefficient of K^2.
+      The coefficient should be 1 - cos(theta), which equals 2 sin(theta / 2)^2
     """
     c, s = np.cos(theta), np.sin(theta)
     factors = {
@@ -91,10 +92,11 @@ def _(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """exp-by-entries: your code uses np.exp, which takes the exponential of each entry.
-      Use the matrix exponential instead, which is a series of matrix products
-    bracket-of-a-dyad: your last term is (1 - cos(theta)) axis axis^T. With this term,
-      the identity matrix needs the factor cos(theta)
+    """exp-by-entries: your code uses `np.exp`, which takes the exponential of each
+      entry. Use the matrix exponential instead, which is a series of matrix products
+    bracket-of-a-dyad: your code adds (1 - cos(theta)) axis axis^T to the identity
+      matrix and the sine term. With this term, multiply the identity matrix by
+      cos(theta)
     dyad-without-factor: your code omits the factor 1 - cos(theta) in front of axis
       axis^T, so the matrix is not the identity at theta = 0
     dyad-missing: your code omits the term (1 - cos(theta)) axis axis^T. This term is

@@ -94,7 +94,8 @@ def _(S, theta):
       translation is v. This term should be theta v, because the translation is 0 at
       theta = 0
     sine-for-theta: your rotation is correct, but the first term of your translation is
-      sin(theta) v. This term should be theta v, as for a pure translation
+      sin(theta) v. This term should be theta v, which is the integral of v from 0 to
+      theta
     exp-coefficients-swapped: your rotation is correct, but your code swaps the
       coefficients of K and K^2 in the translation
     as-in-the-rotation: your rotation is correct, but your translation uses sin(theta)
@@ -144,8 +145,8 @@ def _(S, theta):
       translation by R. Use the translation unchanged
     travel-over-theta: your rotation is correct, but your code divides the translation
       by theta. Omit this division
-    moment-used-as-point: your code uses v as a point on the axis. Use the point omega x
-      v instead, because v is the velocity of the body-fixed point at the origin
+    moment-used-as-point: your code uses v as a point on the axis. The vector v is a
+      velocity. The point on the axis nearest to the origin is omega x v
     pitch-forgotten: your code omits the translation along the axis if omega is not 0.
       This translation is needed for a screw with a nonzero pitch
     pitch-without-theta: your code multiplies the translation along the axis by theta
@@ -186,8 +187,8 @@ def _(S, theta):
 
 @row.wrong
 def exp_by_entries(S, theta):
-    """your code uses np.exp, which takes the exponential of each entry. Use the matrix
-    exponential instead, which is a series of matrix products"""
+    """your code uses `np.exp`, which takes the exponential of each entry. Use the
+    matrix exponential instead, which is a series of matrix products"""
     bracket = np.zeros((4, 4))
     bracket[:3, :3] = skew(S[:3])
     bracket[:3, 3] = S[3:]

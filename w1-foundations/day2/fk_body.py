@@ -17,8 +17,8 @@ either_form(row, body)
 
 @row.wrongs
 def _(body_screws, M, q):
-    """M-last: your product has M to the right of the exponentials, or your code
-      transforms the screws a second time. For screws in the end-effector frame, M
+    """M-last: your code multiplies by M on the right of the exponentials, or transforms
+      the screws a second time. For screws expressed in the end-effector frame, M
       belongs on the left
     motions-on-the-left: your code multiplies by each exponential on the left. The
       screws are expressed in the end-effector frame, so each exponential belongs on the

@@ -16,8 +16,8 @@ either_form(row, space)
 
 @row.wrongs
 def _(screws, M, q):
-    """M-first: your product has M to the left of the exponentials. For screws in the
-      world frame, M belongs on the right
+    """M-first: your code multiplies by M on the left of the exponentials. For screws
+      expressed in the world frame, M belongs on the right
     M-only-added: your code adds only the translation of M. Multiply by M instead,
       because M also contains a rotation
     space-screws-in-body-form: your code transforms the screws to the end-effector

@@ -74,10 +74,10 @@ def either_form(row, form):
 def _in_the_product(row, form):
     @row.wrongs
     def _(screws, M, q):
-        """product-reversed: your exponentials are in the reverse order. The exponential
-          of the joint nearest to the base belongs on the left
-        M-twice: your product contains M on both sides of the exponentials. The product
-          should contain M only once
+        """product-reversed: your code multiplies the exponentials in the reverse order.
+          The exponential of the joint nearest to the base belongs on the left
+        M-twice: your code multiplies by M on both sides of the exponentials. The
+          product should contain M only once
         M-in-the-loop: your code multiplies by M inside the loop, so the product
           contains M once per joint. The product should contain M only once
         multiplied-by-entries: your code multiplies the exponentials entry by entry. Use
@@ -99,8 +99,8 @@ def _in_the_product(row, form):
     @row.wrong
     def exponentials_summed(screws, M, q):
         """your code adds the twists and computes one exponential of the sum. Multiply
-        the exponentials instead, because e^A e^B equals e^(A + B) only if A and B
-        commute"""
+        the exponentials instead, because e^(A + B) is in general not equal to e^A
+        e^B"""
         V = q @ screws
         size = np.linalg.norm(V[:3]) or 1.0
         return with_M(form, motion(V / size, size), M)
@@ -114,8 +114,8 @@ def _in_M(row, form):
         M-inverted: your code inverts M. Use M itself, which maps end-effector
           coordinates to world coordinates
         M-twice: your product contains M twice. The product should contain M only once
-        M-rotation-missing: your code uses only the translation of M and omits its
-          rotation
+        M-rotation-missing: your code omits the rotation of M. Multiply by M itself,
+          which also contains a rotation
         M-turned-back: your code transposes the rotation of M. Use M unchanged
         """
         used = {

@@ -39,18 +39,20 @@ def _(rng):
 @row.wrongs
 def _(J, e, damping):
     """relative-damping: your code multiplies `damping` by the largest singular value of
-      J. Use `damping` unchanged, because it already has the units of J
+      J. Use `damping` unchanged, because the step minimises |J dq - e|^2 + damping^2
+      |dq|^2
     damping-dropped: your code omits the damping, so the result is the pseudo-inverse
       step, which is very large near a singularity. Add damping^2 to the diagonal of J
       J^T
     damping-everywhere: your code adds damping^2 to every entry of J J^T. Add damping^2
       only to its diagonal
     transpose-only: your code returns the gradient step J^T e. The damped least-squares
-      step also contains the inverse of the damped matrix J J^T
+      step also contains the inverse of J J^T + damping^2 I
     pseudo-inverse-scaled: your code divides the pseudo-inverse step by 1 + damping^2,
       which scales all directions equally. Damping should mainly reduce the step along
       the directions with small singular values
-    damping-fixed: your damping is always 0.05. Use the argument `damping`
+    damping-fixed: your code always uses a damping of 0.05. Use the argument `damping`
+      instead
     damping-added-to-the-values: your code replaces 1 / s with 1 / (s + damping) for
       each singular value s. Use s / (s^2 + damping^2) instead
     singular-value-missing 2: your code replaces 1 / s with 1 / (s^2 + damping^2) for

@@ -30,12 +30,12 @@ def _(J_space, p, F):
       wrench that the hand exerts, so the motor power should equal the power of F
     pseudo-inverse: your code returns J^+ F, which does not conserve power. Which matrix
       makes the motor power equal to the power of F at the hand?
-    moment-forgotten: your code omits the moment. The power of F also contains the term
-      moment . omega
-    force-forgotten: your code omits the force. The power of F also contains the term
-      force . v
-    arm-the-wrong-way: your moment of the force about the origin is f x p. The moment
-      should be p x f
+    moment-forgotten: your code omits the moment in F. The power of F also contains the
+      term moment . omega
+    force-forgotten: your code omits the force in F. The power of F also contains the
+      term force . v
+    arm-the-wrong-way: your code uses f x p as the moment of the force about the world
+      origin. Use p x f instead
     arm-twice: your code adds p x f to the moment, as for J_space, and also uses the
       Jacobian of the point p. Use J_space with this sum, or the Jacobian of p with the
       given moment => both

@@ -294,7 +294,7 @@ def _(R):
 @row.wrong
 def two_arguments_exchanged(R):
     """your angle is pi minus the correct angle, because the cosine has the wrong sign.
-    The cosine is the second argument of atan2"""
+    The cosine should be (trace - 1) / 2"""
     w = log_rotation(R)
     angle = np.linalg.norm(w)
     return (np.pi - angle) * w / angle if angle > 0 else w

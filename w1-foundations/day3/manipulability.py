@@ -48,7 +48,7 @@ def _(J):
     trace: your code uses the trace of J J^T, which is the sum of the eigenvalues. Use
       the determinant instead, which is the product of the eigenvalues
     inverse-condition: your code returns the smallest singular value divided by the
-      largest. The result should be the product of all singular values
+      largest. The result should be the product of all six singular values
     square-part: your code returns the determinant of the first six columns. Use all
       seven columns
     position-only: your code uses only the three v rows of J. Use all six rows

@@ -94,8 +94,8 @@ def _(J, dq):
 
 @row.wrong
 def damped_projector(J, dq):
-    """your code uses a pseudo-inverse with damping 0.05, so the hand still moves. Use
-    the pseudo-inverse without damping instead"""
+    """your code uses a pseudo-inverse with a damping of 0.05, so the hand still moves.
+    Use the pseudo-inverse without damping instead"""
     return dq - dls_step(J, J @ dq, 0.05)
 
 

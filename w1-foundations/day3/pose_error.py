@@ -47,7 +47,7 @@ def screw_log(D):
 @row.wrongs
 def _(T, T_goal):
     """in-the-hands-axes: both halves of your error are expressed in the hand frame.
-      Both halves should be expressed in the world frame
+      Express both halves in the world frame instead
     body-twist: your code returns the body twist log(T^-1 T_goal), which belongs to
       J_body. Return the error that belongs to J_site
     space-twist: your code returns the spatial twist log(T_goal T^-1), which belongs to
@@ -63,16 +63,16 @@ def _(T, T_goal):
 
 @row.wrongs
 def _(T, T_goal):
-    """rotation-in-the-hands-axes: your rotation vector is log(R^T R_goal), which is
-      expressed in the hand frame. The rotation vector should be expressed in the world
-      frame
-    rotation-sign: your rotation leads from the goal to the hand. The rotation should
-      lead from the hand to the goal
+    """rotation-in-the-hands-axes: your code uses the rotation vector log(R^T R_goal),
+      which is expressed in the hand frame. Express the rotation vector in the world
+      frame instead
+    rotation-sign: your code uses the rotation from the goal to the hand. Use the
+      rotation from the hand to the goal instead
     rotation-difference: your code returns log(R_goal) - log(R) as the rotation. Use the
       logarithm of the rotation from R to R_goal instead
-    euler-difference: your code subtracts roll, pitch and yaw. Use the logarithm of the
-      rotation from R to R_goal instead, because the difference of these angles is not a
-      rotation vector
+    euler-difference: your code subtracts the roll, pitch and yaw angles of the two
+      poses. Use the logarithm of the rotation from R to R_goal instead, because the
+      difference of these angles is not a rotation vector
     """
     R = T[:3, :3]
     goal = T_goal[:3, :3]
@@ -91,12 +91,12 @@ def _(T, T_goal):
     """translation-in-the-hands-axes: your translation is expressed in the hand frame,
       as in the last column of T^-1 T_goal. The translation should be expressed in the
       world frame
-    goal-position-for-translation: your translation is the position of the goal. The
-      translation should be the vector from the hand to the goal
-    translation-sign: your translation leads from the goal to the hand. The translation
-      should lead from the hand to the goal
-    screw-for-translation: your translation is p_goal - R p, where R is the rotation of
-      T_goal T^-1. The translation should be p_goal - p
+    goal-position-for-translation: your code uses the position of the goal as the
+      translation. Use the vector from the hand to the goal instead
+    translation-sign: your code uses the vector from the goal to the hand as the
+      translation. Use the vector from the hand to the goal instead
+    screw-for-translation: your code uses p_goal - R p as the translation, where R is
+      the rotation of T_goal T^-1. Use p_goal - p instead
     """
     goal = T_goal[:3, 3]
     turn = pose_error(T, T_goal)[:3]

@@ -53,12 +53,14 @@ def in_the_hands_axes(T, T_goal):
 
 @row.wrongs
 def _(screws, M, T_goal, q_start, limits):
-    """space-jacobian: your steps use J_space, whose v is the velocity of the body-fixed
-      point at the world origin. Use J_site instead, whose v is the velocity of the hand
-    body-jacobian: your steps use J_body, which is expressed in the hand frame, but your
-      error is expressed in the world frame. Express both in the same frame
-    error-in-the-hands-axes: your error is expressed in the hand frame, but J_site is
-      expressed in the world frame. Express both in the same frame
+    """space-jacobian: your code computes the steps with J_space, whose v is the
+      velocity of the body-fixed point at the world origin. Use J_site instead, whose v
+      is the velocity of the hand
+    body-jacobian: your code uses J_body, which is expressed in the hand frame, with an
+      error that is expressed in the world frame. Express both in the same frame
+    error-in-the-hands-axes: your code uses J_site, which is expressed in the world
+      frame, with an error that is expressed in the hand frame. Express both in the same
+      frame
     damping-not-squared: your code adds the damping instead of its square to the
       diagonal of J J^T. Add damping^2 instead
     limits-forgotten: your code does not apply the joint limits. Apply the limits after

@@ -55,8 +55,8 @@ ZERO = np.zeros((3, 3))
 
 @row.wrongs
 def _(screws, q):
-    """screws-constant: your columns are the screws at q = 0. Transform each screw by
-      the motions of all joints before it
+    """screws-constant: your code uses the screws at q = 0 as columns. Transform each
+      screw by the motions of all joints before it
     last-joint-only: your code transforms each screw only by the motion of the joint
       directly before it. Use the motions of all joints before it
     product-reversed: your code multiplies the exponentials in the reverse order. The
@@ -71,8 +71,8 @@ def _(screws, q):
       after it. Use the motions of the joints before it instead
     adjoint-of-the-inverse: your code transforms the screws with the adjoint of the
       inverse motion. Use the adjoint of the motion itself
-    columns-reversed: your columns are in the reverse order. The column of joint 1
-      should come first
+    columns-reversed: your code returns the columns in the reverse order. The column of
+      joint 1 should come first
     """
     alone = [np.eye(4), *exp_screw(screws, q)]
     moved = products(screws, q)
@@ -93,8 +93,8 @@ def _(screws, q):
 
 @row.wrongs
 def _(screws, q):
-    """bracket-top-right: your adjoint has the block [p] R in the upper right. With the
-      order (omega; v), this block belongs in the lower left
+    """bracket-top-right: your code puts the block [p] R of the adjoint in the upper
+      right. With the order (omega; v), this block belongs in the lower left
     bracket-after-R: the lower left block of your adjoint is R [p]. This block should be
       [p] R
     rotation-only: your code only rotates the screws, because your adjoint omits the

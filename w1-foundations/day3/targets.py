@@ -117,7 +117,7 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
         return found
     if after >= before:
         return Finding(
-            "no-nearer", "Your result is no nearer to the target than the start."
+            "no-nearer", "Your result is not closer to the target than the start."
         )
     if after <= 1e-8:
         return None

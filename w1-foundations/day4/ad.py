@@ -21,13 +21,13 @@ def _(rng):
 
 @row.wrongs
 def _(V):
-    """v-on-top: your block [v] is in the upper right. The block belongs in the lower
-      left, because a linear velocity does not change an angular velocity
+    """v-on-top: your code puts the block [v] in the upper right. The block belongs in
+      the lower left, because a linear velocity does not change an angular velocity
     v-forgotten: your code omits the block [v] in the lower left. This block adds v x
       omega2 to the linear part of the result
     second-omega-forgotten: your lower right block is 0. This block should be [omega],
       which adds omega x v2 to the linear part of the result
-    v-in-both-corners: your block [v] is in both off-diagonal blocks. The upper right
+    v-in-both-corners: your code puts [v] in both off-diagonal blocks. The upper right
       block should be 0, because v does not change an angular velocity
     v-last: your lower right block is [v]. Both diagonal blocks should be [omega]
     identity-added: your code adds the identity matrix. Omit the identity matrix,

@@ -51,8 +51,8 @@ row.reached_by(
 
 @row.wrong
 def rate_of_the_mass_matrix(J, G, qd, g):
-    """your velocity term is only dM/dt qd. Also subtract the gradient of the kinetic
-    energy with respect to q, as in Lagrange's equations"""
+    """your code uses only dM/dt qd as the velocity term. Also subtract the gradient of
+    the kinetic energy with respect to q, as in Lagrange's equations"""
     X = ad(np.cumsum(J * qd, axis=1).T)  # of each link
     J_rate = np.array([X_i @ S for X_i, S in zip(X, J.T)]).T
     G_rate = np.array([-X_i.T @ G_i - G_i @ X_i for X_i, G_i in zip(X, G)])

@@ -26,13 +26,12 @@ def _(rng):
 
 @row.wrongs
 def _(M, qd, masses, coms_world, g):
-    """speed-squared-too-early: your code squares qd before the product with M. The
+    """speed-squared-too-early: your code squares qd before the multiplication by M. The
       kinetic energy should contain qd on both sides of M, as in qd^T M qd
     every-mass-everywhere: your code multiplies every link's height by the mass of the
       whole arm. Use the mass of each link instead
-    distance-for-height: your potential energy uses the distance of each centre of mass
-      from the origin as its height. Use only the component of the position along -g
-      instead
+    distance-for-height: your code uses the distance of each centre of mass from the
+      origin as its height. Use only the component of the position along -g instead
     """
     K, U = energy(M, qd, masses, coms_world, g)
     all_at_once = -coms_world.sum(axis=0) @ g  # of 1 kg at each centre

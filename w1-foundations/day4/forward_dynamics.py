@@ -35,7 +35,7 @@ def _(rng):
 
 @row.wrong(
     "torque-clipped",
-    "your code clamps tau to the motors' torque limits. Use tau unchanged",
+    "your code clamps `tau` to the motors' torque limits. Use `tau` unchanged",
     hidden="the lab's torques are within the limits",
 )
 def _(M, bias, damping, qd, tau):
@@ -44,8 +44,8 @@ def _(M, bias, damping, qd, tau):
 
 @row.wrongs
 def _(M, bias, damping, qd, tau):
-    """both-signs: your code adds `bias` and the damping torque to tau. Subtract both
-      from tau instead
+    """both-signs: your code adds `bias` and the damping torque to `tau`. Subtract both
+      from `tau` instead
     armature-twice: your code adds the armature to M. Use M unchanged, because M already
       contains the armature (task 4.3)
     mass-of-the-step: your code uses M + h damping, which is the matrix of the
@@ -53,12 +53,12 @@ def _(M, bias, damping, qd, tau):
       acceleration at this instant
     velocity-returned: your code returns qd + h qdd, which is the velocity after a step
       of h = 2 ms. Return qdd instead
-    divided-entry-by-entry: your expression 1 / M takes the reciprocal of each entry of
-      M. Use the matrix inverse of M, or solve the linear system
+    divided-entry-by-entry: your code takes the reciprocal of each entry of M (`1 / M`).
+      Use the matrix inverse of M instead, or solve the linear system
     damping-not-divided: your code subtracts the damping torque after the multiplication
       by M^-1. Subtract all torques before this multiplication
-    only-torque-divided: your code multiplies only tau by M^-1. Subtract `bias` and the
-      damping torque from tau first, because both are also torques
+    only-torque-divided: your code multiplies only `tau` by M^-1. Subtract `bias` and
+      the damping torque from `tau` first, because both are also torques
     """
     brake = damping * qd
     net = tau - bias - brake
@@ -87,8 +87,8 @@ def half_solved(M, bias, damping, qd, tau):
 
 @row.wrong
 def one_factor_twice(M, bias, damping, qd, tau):
-    """your second triangular system uses L again. M equals L L^T, so the second system
-    needs L^T"""
+    """your code uses L again in the second triangular system. M equals L L^T, so the
+    second system needs L^T"""
     L = np.linalg.cholesky(M)
     return solve(L, solve(L, tau - bias - damping * qd))
 

@@ -15,13 +15,13 @@ OTHER_GRAVITY = (
     Change(
         "gravity-typed-in",
         "your code uses the constant (0, 0, 9.81) for gravity, which points up. Use "
-        "the argument {name} instead",
+        "the argument `{name}` instead",
         typed_in(9.81),
     ),
     Change(
         "gravity-rounded",
         "your code uses the rounded constant 9.8 for gravity. Use the argument "
-        "{name} instead",
+        "`{name}` instead",
         typed_in(-9.8),
     ),
 )
@@ -30,21 +30,21 @@ OTHER_DIRECTION = (
     Change(
         "gravity-typed-in",
         "your code uses the constant (0, 0, -9.81) for gravity. Use the argument "
-        "{name} instead, because the robot may be mounted on a wall",
+        "`{name}` instead, because the robot may be mounted on a wall",
         typed_in(-9.81),
         hidden=UPRIGHT,
     ),
     Change(
         "only-z-of-gravity",
-        "your code uses only the z component of {name}. Use all three components, "
-        "because {name} can point in any direction",
+        "your code uses only the z component of `{name}`. Use all three components, "
+        "because `{name}` can point in any direction",
         lambda g: g * [0.0, 0.0, 1.0],
         hidden=UPRIGHT,
     ),
     Change(
         "length-of-gravity",
-        "your code uses only the norm of {name} and assumes that gravity points down. "
-        "Use the direction of {name} as well",
+        "your code uses only the norm of `{name}` and assumes that gravity points "
+        "down. Use the direction of `{name}` as well",
         lambda g: np.array([0.0, 0.0, -np.linalg.norm(g)]),
         hidden=UPRIGHT,
     ),

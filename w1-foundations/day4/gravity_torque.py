@@ -87,8 +87,8 @@ def _(J, masses, coms_world, g):
 
 @row.wrong
 def centre_not_weighted(J, masses, coms_world, g):
-    """your code uses the unweighted mean of the centres of mass that each joint
-    carries. Weight each centre of mass by the mass of its link"""
+    """your code uses the unweighted mean of the centres of mass of the links that each
+    joint carries. Weight each centre of mass by the mass of its link"""
     tau = np.zeros(7)
     for i in range(7):
         c = coms_world[i:].mean(axis=0)

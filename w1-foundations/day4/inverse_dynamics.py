@@ -54,8 +54,9 @@ def passes(
 
 @row.wrongs
 def _(J, G, qd, qdd, g):
-    """base-acceleration-sign: your base acceleration is g instead of -g. A base at rest
-      under gravity is equivalent to a base that accelerates against g
+    """base-acceleration-sign: your code uses g instead of -g as the acceleration of the
+      base. A base at rest under gravity is equivalent to a base that accelerates
+      against g
     gravity-only: your code uses neither qd nor qdd, so the result is only the gravity
       torque. Use both arguments
     armature-added: your code adds the armature torque, 0.1 qdd. Omit this torque,
@@ -96,12 +97,12 @@ def _(J, G, qd, qdd, g):
       only once, because the derivative of S qd is S qdd + ad(V) S qd
     speed-squared: your code adds ad(V) S qd^2 to the acceleration. Add ad(V) S qd
       instead, because V is already proportional to the joint velocities
-    bracket-not-transposed: your wrench contains -ad(V) G V. Use -ad(V)^T G V instead,
-      because wrenches transform with the transpose of ad(V)
-    velocity-product-forgotten: your wrench is only G A. The wrench also contains the
-      term -ad(V)^T G V, because G changes when the link moves
-    velocity-of-the-link-before: your wrench uses V before your code adds the velocity
-      of the link's own joint. Add this velocity to V first
+    bracket-not-transposed: your code uses -ad(V) G V in the wrench. Use -ad(V)^T G V
+      instead, because wrenches transform with the transpose of ad(V)
+    velocity-product-forgotten: your code uses only G A as the wrench. The wrench also
+      contains the term -ad(V)^T G V, because G changes when the link moves
+    velocity-of-the-link-before: your code computes the wrench with V before it adds the
+      velocity of the link's own joint. Add this velocity to V first
     summed-from-the-base: your code sums the wrenches from the base to the joint's own
       link. Sum the wrenches from the joint's own link to the tip instead, because a
       motor carries these links
@@ -121,8 +122,8 @@ def _(J, G, qd, qdd, g):
     gravity-at-every-link: your code adds gravity at the base and again at every link.
       Add gravity only at the base, because the recursion propagates this acceleration
       to every link
-    bracket-not-transposed 2: your wrench contains ad(V) G V. Use -ad(V)^T G V instead,
-      because wrenches transform with the transpose of ad(V)
+    bracket-not-transposed 2: your code uses ad(V) G V in the wrench. Use -ad(V)^T G V
+      instead, because wrenches transform with the transpose of ad(V)
     gravity-at-every-link 2: your code adds gravity again at every link. Add gravity
       only at the base, because the recursion propagates this acceleration to every link
     """

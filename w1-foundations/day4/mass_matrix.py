@@ -29,7 +29,7 @@ def links(J, G, counts):
 @row.wrongs
 def _(J, G, armature):
     """armature-per-link: your code adds the armature once per link. Add the armature
-      only once, because each rotor contributes only once
+      only once, because each joint has only one rotor
     mirrored-with-the-diagonal: your code adds a triangle of M and its transpose, which
       doubles the diagonal. Mirror only the off-diagonal entries
     """
@@ -73,8 +73,8 @@ row.wrongs(cut)
 @row.wrongs
 def _(J, G, armature):
     """corners-swapped: your code uses the off-diagonal blocks of G with the wrong sign.
-      Your M is still symmetric and positive definite, so these two properties do not
-      show the mistake
+      Use G unchanged. Your M is still symmetric and positive definite, so these two
+      properties do not show the mistake
     corners-dropped: your code adds the rotational and translational parts separately.
       Include the off-diagonal blocks of G as well, because they couple the two parts
     angular-half-only: your code uses only the angular half of J_space. Use all six

@@ -38,7 +38,7 @@ def _(m, c, I):
       m [c] [c]^T instead, because only the distance from an axis contributes to the
       moment of inertia about this axis
     products-of-inertia-sign: your code negates the off-diagonal entries of the inertia.
-      The argument `inertia` is already the inertia matrix, so use all entries unchanged
+      The given matrix is already the inertia matrix, so use all entries unchanged
     """
     C = skew(c)
     own = np.diag(np.diag(I))
@@ -63,9 +63,9 @@ def _(m, c, I):
       one block should be the transpose of the other
     corners-swapped: your code swaps the two off-diagonal blocks. The upper right block
       should be m [c], and the lower left block should be m [c]^T
-    corners-empty: your two off-diagonal blocks are 0, which is correct only about the
-      centre of mass. The blocks should be m [c] and m [c]^T, because they couple
-      rotation and translation
+    corners-empty: your two off-diagonal blocks are 0, which is correct only for c = 0.
+      The blocks should be m [c] and m [c]^T, because they couple rotation and
+      translation
     one-corner-empty: one of your two off-diagonal blocks is 0. The matrix is symmetric,
       so each off-diagonal block should be the transpose of the other
     mass-forgotten-in-the-corners: your two off-diagonal blocks contain [c] without the

@@ -40,7 +40,7 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
     """gains-outside-M: your code adds the PD terms after the product with M. Multiply
       these terms by M too, because otherwise joints with different inertias respond
       differently
-    damping-forgotten: your code omits the damping torque. Add `damping` * qd, because
+    damping-forgotten: your code omits the damping torque. Add `damping * qd`, because
       `bias` does not contain this torque
     friction-of-the-error: your code multiplies `damping` by ed. Multiply `damping` by
       the measured velocity qd instead
@@ -56,8 +56,8 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
       both after the product with M, because both are already torques
     reference-outside-M: your code adds qdd_ref after the product with M. Multiply
       qdd_ref by M too, because it is an acceleration
-    measured-velocity-damped: your derivative term is -kd qd, so your controller also
-      brakes the desired motion. Use kd ed instead
+    measured-velocity-damped: your code uses -kd qd as the derivative term, so the
+      controller also brakes the desired motion. Use kd ed instead
     armature-twice: your code adds the armature, 0.1 kg m2, to M. Use M unchanged,
       because M already contains the armature
     bias-alone-at-the-goal: your code returns only `bias` if e is 0. Use the same

@@ -75,14 +75,15 @@ def _(t, omega, zeta):
     """one-formula-for-all: your code uses the formula for zeta = 1 for every zeta, with
       zeta omega instead of omega. For zeta below 1, the error should oscillate. For
       zeta above 1, the error should be a sum of two exponentials
-    envelope-alone: your curve is only the envelope e^(-zeta omega t). The derivative of
-      the error should be 0 at t = 0, but the derivative of the envelope is not
-    envelope-of-omega: your curve is e^(-omega t) for every zeta. The derivative of the
-      error should be 0 at t = 0, but the derivative of this curve is -omega
-    half-the-damping: your curve belongs to half the damping ratio. In the error
-      equation, the coefficient of the first derivative is 2 zeta omega
-    output-in-place-of-error: your curve rises from 0 to 1, as the step response of the
-      joint does. Return the error, which is 1 minus the step response
+    envelope-alone: your code returns only the envelope e^(-zeta omega t). The
+      derivative of the error should be 0 at t = 0, and the derivative of the envelope
+      is -zeta omega
+    envelope-of-omega: your code returns e^(-omega t) for every zeta. The derivative of
+      the error should be 0 at t = 0, and the derivative of this curve is -omega
+    half-the-damping: your code uses half the damping ratio. In the error equation, the
+      coefficient of the first derivative is 2 zeta omega
+    output-in-place-of-error: your code returns the step response, which rises from 0 to
+      1. Return the error instead, which is 1 minus the step response
     omega-in-turns: your code multiplies omega by 2 pi. Use omega unchanged, because it
       is already in rad/s
     """
@@ -103,7 +104,8 @@ def _(t, omega, zeta):
       equals 1 up to rounding, for example within 1e-9
     time-from-the-first: your code measures time from t[0]. The error should be 1 at t =
       0, even if t does not contain 0
-    first-entry-one: your first entry is always 1. The error should be 1 only at t = 0
+    first-entry-one: your code always sets the first entry to 1. The error should be 1
+      only at t = 0
     """
     near = 1.0 if abs(zeta - 1.0) < 0.05 else zeta
     return {
@@ -117,13 +119,14 @@ def _(t, omega, zeta):
 def _(t, omega, zeta):
     """slow-exponential-alone: your code uses only the slow exponential for zeta above
       1. Use both exponentials, so that the derivative of the error is 0 at t = 0
-    both-halves: both of your exponentials have the weight 1/2 for zeta above 1. Choose
-      the two weights so that the derivative of the error is 0 at t = 0
-    weights-swapped: the weights of your two exponentials are swapped for zeta above 1.
-      The slow exponential should have the larger weight
-    weights-summed: your error does not start at rest for zeta above 1. If your formula
-      contains two exponentials, subtract in its numerator and in its denominator
-      instead of adding. If it contains cosh and sinh, your factor of sinh is inverted
+    both-halves: your code gives both exponentials the weight 1/2 for zeta above 1.
+      Choose the two weights so that the derivative of the error is 0 at t = 0
+    weights-swapped: your code swaps the weights of the two exponentials for zeta above
+      1. The slow exponential should have the larger weight
+    weights-summed: the derivative of your error at t = 0 is not 0 for zeta above 1. If
+      your formula contains two exponentials, subtract the terms in its numerator and in
+      its denominator instead of adding them. If it contains cosh and sinh, its factor
+      of sinh is inverted
     critical-above-one: your code returns the curve for zeta = 1 for every zeta above 1.
       The error should decay more slowly for a larger zeta
     """

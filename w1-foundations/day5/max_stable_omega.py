@@ -15,17 +15,17 @@ def _(rng):
 
 @row.wrongs
 def _(h):
-    """undamped-limit: your result 2 / h is the stability limit of a spring without
-      damping. With critical damping, the limit is lower, because the damping torque
-      acts one step late
-    one-over-h: your result 1 / h is a rule of thumb. Find the omega at which the step
-      matrix has the eigenvalue -1 instead
-    larger-root: your result is the larger root of the quadratic equation. Return the
-      smaller root, because the loop already becomes unstable at this root
-    nyquist: your result pi / h is the Nyquist frequency, which limits the signals that
-      can be sampled. Find the omega at which the step matrix has the eigenvalue -1
-      instead
-    in-hertz: your result is in Hz. The function should return rad/s
+    """undamped-limit: your code returns 2 / h, which is the stability limit of a spring
+      without damping. With critical damping, the limit is lower, because the damping
+      torque uses the velocity at the start of the step
+    one-over-h: your code returns 1 / h. Return the omega at which the step matrix has
+      the eigenvalue -1 instead
+    larger-root: your code returns the absolute value of the negative root of the
+      quadratic equation. Return the positive root instead
+    nyquist: your code returns the Nyquist frequency pi / h, which limits the signals
+      that can be sampled. Return the omega at which the step matrix has the eigenvalue
+      -1 instead
+    in-hertz: your code returns the limit in Hz. Return the limit in rad/s instead
     """
     return {
         "undamped-limit": 2.0 / h,

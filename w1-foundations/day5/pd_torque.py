@@ -14,7 +14,7 @@ row.inputs(springs)
 def _(e, ed, kp, kd):
     """one-gain-for-all: your code uses the gains of the first joint for all joints. Use
       each joint's own gains
-    summed-over-joints: your expression `kp @ e` is a dot product, which sums over the
+    summed-over-joints: your code computes the dot product `kp @ e`, which sums over the
       joints. Multiply entry by entry, because each joint has its own torque
     mean-gains: your code uses the mean of the gains for all joints. Use each joint's
       own gains

@@ -100,7 +100,7 @@ def _(e, ed, integral, ki, dt, clamp):
     clamped-on-one-side 2: your code clamps the integral only at the lower limit. Clamp
       the integral at the upper limit too
     never-negative: your code clamps the integral to the range from 0 to `clamp`. The
-      lower limit should be -clamp
+      lower limit should be `-clamp`
     clamped-as-a-vector: your code limits the norm of the integral to `clamp`. Clamp
       each joint's integral separately instead
     term-clamped: your code clamps ki times the integral. Clamp the integral itself,
@@ -134,13 +134,13 @@ def _(e, ed, integral, ki, dt, clamp):
 
 @row.wrongs
 def _(e, ed, integral, kp, kd, ki, dt, clamp):
-    """clamped-too-late: your acceleration uses the integral before it is clamped. Use
-      the clamped integral instead
+    """clamped-too-late: your code computes the acceleration from the integral before
+      the clamp. Use the clamped integral instead
     bound-not-handed-back: your code uses the clamped integral in the acceleration, but
       it returns the unclamped integral. Return the clamped integral too, so that the
       integral cannot grow without bound
-    old-integral-used: your acceleration uses the integral of the previous step. Update
-      the integral first
+    old-integral-used: your code computes the acceleration from the integral of the
+      previous step. Update the integral first
     old-integral-kept: your code returns the old integral. Return the updated integral
       instead
     this-step-alone-used: your code multiplies only the current e dt by ki. Multiply the

@@ -64,13 +64,13 @@ def _(tau, limits):
     one-over-stops-all: your code sets all seven torques to 0 if one torque exceeds its
       limit. Clamp only this torque, because the other motors can still supply their
       torques
-    nothing-within-the-limits: your result is 0 if all torques are within their limits.
-      Torques within their limits should not change
+    nothing-within-the-limits: your code returns 0 if all torques are within their
+      limits. Torques within their limits should not change
     first-limit-typed-in: your code uses the limit 87 N m for all joints. Use each
       motor's own entry in `limits`
     all-positive: your code makes all torques positive. Keep the sign of each torque,
       because a motor can act in both directions
-    rounded-off: your code returns limits * tanh(tau / limits), which is a smooth
+    rounded-off: your code returns `limits * tanh(tau / limits)`, which is a smooth
       saturation. A torque within the limits should not change
     first-joint-only: your code clamps only the torque of joint1. Clamp all seven
       torques, because every motor has a limit

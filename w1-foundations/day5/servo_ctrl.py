@@ -21,10 +21,10 @@ def _(rng):
 
 @row.wrongs
 def _(tau, q, qd, kp, kd):
-    """damper-not-divided: your code divides only tau by kp. Divide the sum of tau and
-      kd qd by kp, because kd qd is also a torque
-    torque-of-the-command: your code returns the torque of a servo whose command is tau.
-      Solve the servo equation for the command instead
+    """damper-not-divided: your code divides only `tau` by kp. Divide the sum of `tau`
+      and kd qd by kp, because kd qd is also a torque
+    torque-of-the-command: your code returns the torque of a servo whose command is
+      `tau`. Solve the servo equation for the command instead
     """
     return {
         "damper-not-divided": q + tau / kp + kd * qd,

@@ -41,8 +41,8 @@ def by_modes(K, L):
 
 @row.wrongs
 def _(K, Lambda):
-    """Lambda-ignored: your result is 2 sqrt(K), which is the critical damping of a unit
-      mass. Use the argument `Lambda` as well
+    """Lambda-ignored: your code returns 2 sqrt(K), which is the critical damping of a
+      unit mass. Use the argument `Lambda` as well
     another-design: your code diagonalises Lambda and K together, which gives another
       critically damped design. Return the sum of the two products of sqrt(Lambda) and
       sqrt(K) instead
@@ -53,8 +53,8 @@ def _(K, Lambda):
       Add the products in both orders, so that the result is symmetric
     half-of-it: your code uses only one of the two products of sqrt(Lambda) and sqrt(K).
       Add the product with the factors in the opposite order
-    factor-two: your result contains an extra factor of 2. For single numbers k and m,
-      the sum of the two products is already 2 sqrt(k m)
+    factor-two: your code multiplies the result by an extra factor of 2. For single
+      numbers k and m, the sum of the two products is already 2 sqrt(k m)
     factor-two-missing: your code averages the two products of sqrt(Lambda) and sqrt(K).
       Add these products instead
     root-on-both-sides: your code has sqrt(Lambda) on both sides of sqrt(K), so the
@@ -84,14 +84,14 @@ def _(K, Lambda):
 
 @row.wrongs
 def _(K, Lambda):
-    """entries-square-rooted: your code uses np.sqrt, which takes the square root of
+    """entries-square-rooted: your code uses `np.sqrt`, which takes the square root of
       each entry of Lambda. Use the matrix square root X instead, which satisfies X X =
       Lambda
     eigenvectors-transposed: your code transposes V, the matrix whose columns are the
       eigenvectors. The square root is V diag(sqrt(values)) V^T
-    eigenvalues-not-rooted-back: your square root diag(sqrt(values)) is expressed in the
-      basis of the eigenvectors. Transform it back with V, the matrix whose columns are
-      the eigenvectors
+    eigenvalues-not-rooted-back: your code uses diag(sqrt(values)) as the square root,
+      which is expressed in the basis of the eigenvectors. Transform this matrix back
+      with V, the matrix whose columns are the eigenvectors
     cholesky: your code uses a Cholesky factor L, which satisfies L L^T = Lambda. Use
       the matrix square root X instead, which satisfies X X = Lambda
     entries-square-rooted 2: your code takes the square root of the absolute value of

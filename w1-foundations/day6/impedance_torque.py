@@ -29,11 +29,11 @@ def _(rng):
 
 @row.wrongs
 def _(J, wrench, bias, damping, qd, tau_null):
-    """damping-summed: your expression `damping @ qd` is a dot product, which sums over
-      the joints. Multiply entry by entry instead
+    """damping-summed: your code computes the dot product `damping @ qd`, which sums
+      over the joints. Multiply entry by entry instead
     bias-sign: your code subtracts `bias`. Add `bias` instead, because the motors must
       supply this torque even at zero acceleration
-    damping-sign: your code subtracts the damping torque. Add `damping` * qd instead,
+    damping-sign: your code subtracts the damping torque. Add `damping * qd` instead,
       because damping opposes the motion and the motors must supply this torque
     bias-six-times: your code adds `bias` once for each of the six rows of J. Add `bias`
       only once

@@ -24,13 +24,14 @@ def _(rng):
 
 @row.wrongs
 def _(force, k, surface):
-    """millimetres: your depth is in millimetres. All lengths should be in metres
-    whole-metres: your operator // rounds the depth down to whole metres. Use the
-      operator / instead
-    docstrings-numbers: your stiffness is always 400, which is the value in the
-      docstring. Use the argument `k` instead
-    docstrings-numbers 2: your surface is always at the height 0.42, which is the value
-      in the docstring. Use the argument `surface` instead
+    """millimetres: your code computes the depth in millimetres. All lengths should be
+      in metres
+    whole-metres: your code uses the operator `//`, which rounds the depth down to whole
+      metres. Use the operator `/` instead
+    docstrings-numbers: your code always uses the stiffness 400, which is the value in
+      the docstring. Use the argument `k` instead
+    docstrings-numbers 2: your code always uses the surface height 0.42, which is the
+      value in the docstring. Use the argument `surface` instead
     never-below-zero: your code replaces negative heights with 0. Return the height
       unchanged, because the commanded height can be negative
     newtons-as-weight: your code divides the force by 9.81, which gives a mass. Use the

@@ -56,9 +56,9 @@ def _(J, M):
       to an acceleration. Lambda should map an acceleration to a wrench
     M-not-inverted: your code uses J M J^T. Use M^-1 instead of M, because M^-1 maps the
       joint torques J^T F to joint accelerations
-    pinv-both-sides: your result pinv(J)^T M pinv(J) is correct only for an arm with six
-      joints. Invert J M^-1 J^T instead, because the seventh joint also allows internal
-      motions, which reduce the inertia at the hand
+    pinv-both-sides: your code returns pinv(J)^T M pinv(J), which is correct only for an
+      arm with six joints. Invert J M^-1 J^T instead, because the seventh joint also
+      allows internal motions, which reduce the inertia at the hand
     armature-left-out: your code subtracts the armature (the rotor inertia of the
       motors) from M. Use M unchanged, because the rotors contribute to the inertia at
       the hand

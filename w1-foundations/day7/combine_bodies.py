@@ -44,26 +44,23 @@ def whole(m1, c1, I1, m2, c2, I2, c, theorem=parallel_axes):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """no-parallel-axes: your code adds the two inertias unchanged. Move both inertias
-      to the common centre of mass first, because each inertia belongs to its own centre
-      of mass
+    """no-parallel-axes: your code adds I1 and I2 unchanged. First move both inertias to
+      the common centre of mass, because each one is about its own body's centre of mass
     about-the-origin: your code returns the inertia about the origin of the frame.
       Return the inertia about the common centre of mass instead
-    only-the-second-moved: your code moves only the second inertia to the common centre
-      of mass. The first body's centre of mass also differs from the common centre, so
-      move both inertias
-    only-the-first-moved: your code moves only the first inertia to the common centre of
-      mass. The second body's centre of mass also differs from the common centre, so
-      move both inertias
+    only-the-second-moved: your code moves only I2 to the common centre of mass. Move I1
+      as well, because c1 also differs from the common centre of mass
+    only-the-first-moved: your code moves only I1 to the common centre of mass. Move I2
+      as well, because c2 also differs from the common centre of mass
     about-the-first-centre: your code returns the inertia about the first body's centre
       of mass. Return the inertia about the common centre of mass instead
-    distance-of-the-two: in the parallel-axis theorem, your code uses the distance
-      between the two centres of mass. Use the distance of each centre of mass from the
-      common centre of mass
+    distance-of-the-two: your code uses the distance between c1 and c2 in the
+      parallel-axis theorem. Use the distance of each centre of mass from the common
+      centre of mass instead
     mass-not-in-the-theorem: your code omits the mass of the body in the parallel-axis
       theorem. The theorem adds m ((d . d) E - d d^T), where E is the identity matrix
-    total-mass-for-each: in the parallel-axis theorem, your code uses the total mass for
-      each body. Use the mass of the body whose inertia is moved
+    total-mass-for-each: your code uses the total mass for each body in the
+      parallel-axis theorem. Use the mass of the body whose inertia is moved instead
     """
     c = centre(m1, c1, m2, c2)
     own = I1 + I2
@@ -87,8 +84,8 @@ def _(m1, c1, I1, m2, c2, I2):
     """products-not-moved: your code applies the parallel-axis theorem only to the
       diagonal of each inertia matrix. Subtract the off-diagonal entries of m d d^T as
       well
-    distance-not-squared: your parallel-axis theorem uses the distance itself. Use the
-      squared distance d . d
+    distance-not-squared: your code uses the distance itself in the parallel-axis
+      theorem. Use the squared distance d . d instead
     """
     c = centre(m1, c1, m2, c2)
     theorems = {
@@ -102,12 +99,12 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """plain-mean: your common centre is the midpoint of the two centres of mass. Weight
-      each centre by the mass of its body
-    not-divided-by-the-mass: your code does not divide the sum of m c by the total mass.
+    """plain-mean: your code uses the midpoint of c1 and c2 as the common centre of
+      mass. Weight c1 by m1 and c2 by m2 instead
+    not-divided-by-the-mass: your code does not divide m1 c1 + m2 c2 by the total mass.
       The common centre of mass should be the weighted mean of c1 and c2
-    first-centre-kept: your code sets the common centre of mass to c1. The common centre
-      should be the mean of c1 and c2, weighted by the masses
+    first-centre-kept: your code uses c1 as the common centre of mass. Use the mean of
+      c1 and c2 instead, weighted by m1 and m2
     """
     centres = {
         "plain-mean": (c1 + c2) / 2,
@@ -119,14 +116,14 @@ def _(m1, c1, I1, m2, c2, I2):
 
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
-    """by-rows: the six entries of your inertia are in the order xx, xy, xz, yy, yz, zz.
-      The three diagonal entries should come first
-    xy-last: your last three entries are in the order yz, xz, xy. The order should be
-      xy, xz, yz
-    products-negated: your last three entries have the wrong sign. Use the entries of
-      the inertia matrix, in which xy is the sum of -m x y
-    mass-of-the-first: your mass includes only the first body. Add the mass of the
-      second body
+    """by-rows: your code returns the entries of the inertia in the order xx, xy, xz,
+      yy, yz, zz. The order should be xx, yy, zz, xy, xz, yz
+    xy-last: your code returns the last three entries in the order yz, xz, xy. The order
+      should be xy, xz, yz
+    products-negated: your code returns xy, xz and yz with the wrong sign. Return the
+      entries of the inertia matrix, in which xy is the sum of -m x y
+    mass-of-the-first: your code returns the mass of the first body only. Return the
+      total mass m1 + m2 instead
     """
     right = combine_bodies(m1, c1, I1, m2, c2, I2)
     return {

@@ -39,21 +39,21 @@ def tool(T_world_cube, above, yaw):
 
 @row.wrongs
 def _(T_world_cube, above):
-    """yaw-not-folded: your tool has the full yaw of the cube. A rotation by 90 degrees
-      does not change a cube, so use the equivalent yaw between -45 and 45 degrees
-    folded-to-90: your tool has a yaw between 0 and 90 degrees. The yaw should be
-      between -45 and 45 degrees
-    rounded-towards-zero: your code truncates the number of quarter turns, so a yaw of
-      up to 90 degrees remains. Round this number to the nearest integer instead
+    """yaw-not-folded: your code gives the tool the full yaw of the cube. Use the
+      equivalent yaw between -45 and 45 degrees, because a rotation by 90 degrees does
+      not change a cube
+    folded-to-90: your code reduces the yaw to an angle between 0 and 90 degrees. Reduce
+      the yaw to an angle between -45 and 45 degrees instead
+    rounded-towards-zero: your code rounds the number of quarter turns towards 0, so a
+      yaw of up to 90 degrees remains. Round this number to the nearest integer instead
     folded-by-half-turns: your code subtracts multiples of 180 degrees from the yaw.
       Subtract multiples of 90 degrees instead, because a rotation by 90 degrees does
       not change a cube
-    yaw-forgotten: your tool always has the yaw 0, so the fingers meet the edges of a
-      rotated cube. Rotate the tool by the yaw of the cube, reduced to between -45 and
-      45 degrees
-    turned-the-wrong-way: your tool rotates in the opposite direction to the cube. Check
-      the sign of the yaw and the arguments of arctan2, then the order of the product
-      with diag(1, -1, -1)
+    yaw-forgotten: your code gives the tool the yaw 0 for every cube. Use the yaw of the
+      cube, reduced to an angle between -45 and 45 degrees
+    turned-the-wrong-way: your code rotates the tool in the opposite direction to the
+      cube. Check the arguments of arctan2, the sign of the yaw and the order of the
+      product with diag(1, -1, -1)
     """
     yaw = np.arctan2(T_world_cube[1, 0], T_world_cube[0, 0])
     yaws = {
@@ -69,12 +69,13 @@ def _(T_world_cube, above):
 
 @row.wrongs
 def _(T_world_cube, above):
-    """tool-up: the z axis of your tool points up. The z axis should point down
-    about-y: your code rotates the tool by 180 degrees about its y axis instead of its x
-      axis. At yaw 0, the x axis of the tool then points backwards, but it should be the
-      world x axis
+    """tool-up: your code returns a pose in which the z axis of the tool points up.
+      Rotate the tool by 180 degrees about its x axis, so that its z axis points down
+    about-y: your code rotates the tool by 180 degrees about its y axis. Rotate the tool
+      about its x axis instead, so that the tool's x axis is the world x axis at yaw 0
     left-handed: your code reverses only the z axis, so the matrix is a reflection with
-      determinant -1. A rotation reverses two axes
+      determinant -1. Reverse the y axis as well, because a rotation matrix has
+      determinant 1
     """
     right = grasp_pose(T_world_cube, above)
     own = right @ np.diag([1.0, -1.0, -1.0, 1.0])

@@ -66,19 +66,21 @@ def _(T0, T1, s):
     nlerp: your code interpolates the quaternions linearly and normalises the result, so
       the angular velocity is not constant. Multiply the angle of the rotation from R0
       to R1 by s instead
-    turn-in-world-axes: your rotation R1 R0^T is expressed in the world frame. Multiply
-      R0 by this rotation from the left, not from the right
-    turn-on-the-left: your rotation R0^T R1 is expressed in the first frame. Multiply R0
-      by this rotation from the right, not from the left
-    turn-backwards: your code uses R1^T R0, which is the rotation from R1 to R0. Use the
-      rotation from R0 to R1 instead
+    turn-in-world-axes: your code multiplies R0 from the right by a rotation that it
+      computes from R1 R0^T. The axis of R1 R0^T is expressed in the world frame, so
+      multiply R0 from the left
+    turn-on-the-left: your code multiplies R0 from the left by a rotation that it
+      computes from R0^T R1. The axis of R0^T R1 is expressed in the frame of T0, so
+      multiply R0 from the right
+    turn-backwards: your code uses R1^T R0, which is the rotation from R1 to R0. Use
+      R0^T R1 instead, which is the rotation from R0 to R1
     logarithms-mixed: your code interpolates the rotation vectors of R0 and R1 linearly.
       Use the rotation vector from R0 to R1 instead, because rotations about different
       axes do not add
-    not-turned: your orientation is R0 for every s. The orientation should be R1 at s =
-      1
-    turned-at-once: your orientation is R1 for every s. Multiply the angle of the
-      rotation by s
+    not-turned: your code returns the orientation R0 for every s. The orientation should
+      rotate from R0 at s = 0 to R1 at s = 1
+    turned-at-once: your code returns the orientation R1 for every s. Multiply the angle
+      of the rotation from R0 to R1 by s
     """
     R0, R1 = T0[:3, :3], T1[:3, :3]
     w0 = log_rotation(R0)

@@ -31,15 +31,15 @@ def wrapped(angles):
 def _(q0, q1, t, T):
     """start-everywhere: your code also adds q0 to the velocity and the acceleration.
       Add q0 only to the position, because the derivatives of the constant q0 are 0
-    goal-for-way: your code uses q1 instead of the displacement q1 - q0, so the motion
-      ends at q0 + q1 instead of q1
-    way-reversed: your displacement is q0 - q1, so the arm moves away from the goal. Use
-      q1 - q0 instead
+    goal-for-way: your code uses q1 as the displacement, so the motion ends at q0 + q1.
+      Use q1 - q0 instead
+    way-reversed: your code uses the displacement q0 - q1, so the arm moves away from
+      the goal. Use q1 - q0 instead
     speed-forwards-only: your code uses the absolute value of the displacement, so every
       joint moves in the positive direction. Keep the sign of the displacement
-    rates-without-way: your velocity and acceleration are sd and sdd for every joint.
-      Multiply both by the joint's displacement
-    rates-of-the-goal: your velocity and acceleration contain q1 as a factor. Use the
+    rates-without-way: your code returns sd and sdd as the velocity and the acceleration
+      of every joint. Multiply both by the joint's displacement
+    rates-of-the-goal: your code multiplies sd and sdd by q1. Multiply both by the
       displacement q1 - q0 instead
     rates-divided-again: your code divides the velocity and the acceleration by powers
       of the duration. Omit these divisions, because sd and sdd are already derivatives

@@ -16,8 +16,8 @@ def _(rng):
 
 @row.wrong(
     "one-finger",
-    "your code includes only one finger's friction. Both fingers press on the cube, so "
-    "friction acts on two faces",
+    "your code includes the friction of only one finger. Include both fingers, because "
+    "each one presses on a face of the cube",
 )
 def _(grip, mu, acceleration):
     return mu * grip / (G + acceleration)
@@ -27,8 +27,8 @@ for g in (9.8, 10, 9.80665):
 
     @row.wrong(
         "another-gravity",
-        f"your code uses {g} m/s2 for gravity. Use the lab's GRAVITY, which is 9.81 "
-        "m/s2",
+        f"your code uses {g} m/s2 as the acceleration of gravity. Use the lab's "
+        "`GRAVITY`, whose norm is 9.81 m/s2",
     )
     def _(grip, mu, acceleration, g=g):
         return 2 * mu * grip / (g + acceleration)

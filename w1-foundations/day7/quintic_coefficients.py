@@ -48,7 +48,7 @@ def which_condition(case: Case) -> Finding | None:
     return Finding(
         "one-condition-not-kept",
         "Your polynomial satisfies five of the six conditions, but not the condition "
-        f"for {which}. Look at the row of the matrix for this condition and at its "
+        f"for {which}. Check the row of your matrix for this condition, and its "
         "right-hand side.",
     )
 
@@ -72,21 +72,22 @@ def _(rng):
 
 @row.wrongs
 def _(start, end, T):
-    """in-powers-of-x: your coefficients belong to powers of t / duration. Return the
-      coefficients of powers of t
+    """in-powers-of-x: your code returns the coefficients of the powers of t / duration.
+      Return the coefficients of the powers of t instead
     T-is-1: your code uses t = 1 in the conditions at the end, so the duration has no
       effect. Use t = duration instead
-    cubic: your polynomial is a cubic, which does not satisfy the two conditions for the
-      accelerations. Use a polynomial of degree 5, which has six coefficients
+    cubic: your code uses a cubic, which does not satisfy the two conditions for the
+      accelerations. Use a polynomial of degree 5 instead, because it has six
+      coefficients for the six conditions
     accelerations-zero: your code sets the accelerations at both ends to 0. Use the
-      given accelerations
+      accelerations in `start` and `end` instead
     rest-to-rest: your code sets the velocities and the accelerations at both ends to 0.
-      Use the given values
-    two-forgotten: your matrix has 1 for t^2 in the row of the initial acceleration.
-      This entry should be 2, which is the second derivative of t^2
-    conditions-mixed-up: your right-hand side alternates between start and end, but the
-      rows of your matrix do not. Use the same order in the matrix and in the right-hand
-      side
+      Use the values in `start` and `end` instead
+    two-forgotten: your matrix has the entry 1 for t^2 in the row of the initial
+      acceleration. The entry should be 2, because the second derivative of t^2 is 2
+    conditions-mixed-up: your right-hand side alternates between `start` and `end`, but
+      the rows of your matrix do not. Use the same order in the matrix and in the
+      right-hand side
     """
     A = conditions(T)
     four = np.linalg.solve(A[[0, 1, 3, 4], :4], [*start[:2], *end[:2]])

@@ -26,8 +26,8 @@ def never_less(case: Case) -> Finding | None:
     if case.T[off].max() > min(least, case.T[~off].min()):
         return None
     says = (
-        f"Your result is never below {least:g} s, but a short motion needs less "
-        "time. Remove this lower bound."
+        f"Your code never returns less than {least:g} s. Remove this lower bound, "
+        "because a short motion needs less time."
     )
     return Finding("never-less", says)
 
@@ -58,10 +58,11 @@ def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERAT
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """least-of-all: your code returns the shortest of all durations, so the other
-      limits are violated. Return the longest duration instead
-    added-up: your code adds the durations of all joints and limits. Use the longest
-      duration instead, because the joints move at the same time
+    """least-of-all: your code returns the shortest of the durations for all joints and
+      limits. Return the longest duration instead, because only this duration satisfies
+      all limits
+    added-up: your code adds the durations for all joints and limits. Return the longest
+      duration instead, because this duration already satisfies all limits
     """
     each = seconds(delta_q, v_max, a_max)
     return {"least-of-all": each.min(), "added-up": each.sum()}
@@ -70,15 +71,15 @@ def _(delta_q, v_max, a_max):
 @row.wrongs
 def _(delta_q, v_max, a_max):
     """peak-of-the-cubic: your code uses 1.5, which is the maximum velocity of the cubic
-      scaling. Use the maximum velocity of the quintic, which occurs at half of the
+      scaling. Use the maximum velocity of the quintic instead, which occurs at half the
       duration
     peak-of-the-cubic 2: your code uses 6, which is the maximum acceleration of the
-      cubic scaling. Use the maximum acceleration of the quintic, where the derivative
-      of the acceleration is 0
+      cubic scaling. Use the maximum acceleration of the quintic instead, where the
+      derivative of the acceleration is 0
     peak-of-the-cubic 3: your code uses 1.5 and 6, which are the maximum velocity and
       acceleration of the cubic scaling. Use the two maxima of the quintic instead
     peak-at-a-quarter: your code uses 5.625, which is the acceleration at a quarter of
-      the duration. Use the maximum acceleration, where the derivative of the
+      the duration. Use the maximum acceleration instead, where the derivative of the
       acceleration is 0
     """
     peaks = {
@@ -95,33 +96,37 @@ def _(delta_q, v_max, a_max):
 @row.wrongs
 def _(delta_q, v_max, a_max):
     """limits-of-different-joints: your code combines the largest displacement with the
-      lowest limit. Use the displacement and the limit of the same joint
-    both-added: your code adds the duration for the velocity and the duration for the
-      acceleration. Use the longer of the two, which already satisfies both limits
-    both-added 2: your code adds the duration for the velocity and the duration for the
-      acceleration. Use the longer of the two, which already satisfies both limits
-    shorter-of-two: your code returns the shorter of the durations for velocity and
-      acceleration, which violates one of the limits. Return the longer one
+      lowest acceleration limit. Use the displacement and the limit of the same joint
+    both-added: your code adds the duration for the velocity limit and the duration for
+      the acceleration limit. Use the longer of the two instead, which already satisfies
+      both limits
+    both-added 2: your code adds the duration for the velocity limit and the duration
+      for the acceleration limit. Use the longer of the two instead, which already
+      satisfies both limits
+    shorter-of-two: your code returns the shorter of the durations for the velocity
+      limits and the acceleration limits. Return the longer one instead, because it
+      satisfies both kinds of limit
     shorter-of-two 2: for each joint, your code uses the shorter of the durations for
-      velocity and acceleration, which violates one of the limits. Use the longer one
+      the velocity limit and the acceleration limit. Use the longer one instead, because
+      it satisfies both limits
     fastest-joint: your code returns the shortest duration of all joints, so the other
-      joints violate their limits. Return the longest duration
-    fastest-joint 2: your code uses the shortest duration of all joints, separately for
-      velocity and acceleration, so the other joints violate their limits. Use the
-      longest duration
-    one-length: your code uses the norm of delta_q for all joints. Use each joint's own
-      displacement and its own limits
-    summed: your code adds the durations of the joints. Use the longest duration
+      joints violate their limits. Return the longest duration instead
+    fastest-joint 2: for each kind of limit, your code uses the shortest duration of all
+      joints. Use the longest duration instead, because every joint should stay within
+      its limits
+    one-length: your code uses the norm of delta_q and the lowest limits for all joints.
+      Use each joint's own displacement and limits instead
+    summed: your code adds the durations of the joints. Return the longest duration
       instead, because the joints move at the same time
     mean: your code returns the mean of the joints' durations, so the slower joints
-      violate their limits. Return the longest duration
+      violate their limits. Return the longest duration instead
     longest-way: your code uses only the joint with the largest displacement. Use the
       longest duration of all joints, because a joint with lower limits may need more
       time
     one-limit-for-all: your code uses the limits of the first joint for all joints. Use
-      each joint's own limits
+      each joint's own limits instead
     one-limit-for-all 2: your code uses the lowest limits for all joints. Use each
-      joint's own limits
+      joint's own limits instead
     speed-only: your code uses only the velocity limits, so a short motion exceeds the
       acceleration limits. Use both limits
     acceleration-only: your code uses only the acceleration limits, so a long motion

@@ -44,12 +44,14 @@ def polynomial(coefficients, x, T):
 
 
 def jumps(t, T):
-    """cubic: your s is the cubic 3 x^2 - 2 x^3, whose acceleration jumps at both ends.
-      Use the quintic, whose acceleration is 0 at both ends
-    linear: your s grows at a constant rate, so the velocity jumps at both ends. Use the
-      quintic, whose velocity is 0 at both ends
-    cosine: your s is (1 - cos(pi x)) / 2, whose acceleration jumps at both ends. Use
-      the quintic, whose acceleration is 0 at both ends
+    """cubic: your code uses the cubic 3 x^2 - 2 x^3 with x = t / duration. The
+      acceleration of the cubic jumps at both ends. Use the quintic instead, whose
+      acceleration is 0 at both ends
+    linear: your code uses s = t / duration, so the velocity jumps at both ends. Use the
+      quintic instead, whose velocity and acceleration are 0 at both ends
+    cosine: your code uses s = (1 - cos(pi x)) / 2 with x = t / duration. The
+      acceleration of this function jumps at both ends. Use the quintic instead, whose
+      acceleration is 0 at both ends
     """
     x = np.clip(t / T, 0.0, 1.0)
     a = np.pi * x
@@ -75,16 +77,17 @@ row.wrongs(jumps_to_rest)
 
 @row.wrongs
 def _(t, T):
-    """septic: your s is the polynomial of degree 7, which also has jerk 0 at both ends.
-      Use the polynomial of degree 5 instead
+    """septic: your code uses the polynomial of degree 7, whose jerk is also 0 at both
+      ends. Use the polynomial of degree 5 instead
     6-and-10-swapped: your code swaps the coefficients 6 and 10, so the velocity is not
-      0 at the end. The coefficient of the fifth power should be 6
-    sd-and-sdd-not-divided: your sd and sdd are derivatives with respect to x = t /
-      duration. By the chain rule, divide sd by the duration and sdd by the square of
-      the duration
+      0 at the end. The coefficient of x^3 should be 10 and the coefficient of x^5
+      should be 6, where x = t / duration
+    sd-and-sdd-not-divided: your code returns the derivatives with respect to x = t /
+      duration as sd and sdd. By the chain rule, divide sd by the duration and sdd by
+      duration^2
     t-for-x: your code evaluates the polynomial at t, so the duration has no effect.
       Evaluate the polynomial at t / duration instead
-    not-divided+not-clipped: your sd and sdd are derivatives with respect to x = t /
+    not-divided+not-clipped: your code returns the derivatives with respect to x = t /
       duration instead of t. Your code also evaluates the polynomial before the start
       and after the end, when the robot should be at rest
     end-not-clipped: your code handles t < 0 but not t > duration, so it evaluates the
@@ -113,18 +116,16 @@ def _(t, T):
 
 @row.wrongs
 def _(t, T):
-    """sd-not-divided: your sd is the derivative with respect to x = t / duration. By
-      the chain rule, divide this derivative by the duration to get the derivative with
-      respect to t
-    sdd-not-divided: your sdd is the derivative with respect to x = t / duration. By the
-      chain rule, divide this derivative by duration^2 to get the derivative with
-      respect to t
-    sdd-divided-once: your code divides sdd by the duration only once. Divide twice,
-      because sdd is a second derivative
-    multiplied-by-T: your code multiplies sd and sdd by powers of the duration. By the
-      chain rule, divide by these powers instead
-    only-s-clipped: your code clamps s at both ends, but not sd and sdd. Both
-      derivatives should be 0 before the start and after the end
+    """sd-not-divided: your code returns the derivative with respect to x = t / duration
+      as sd. By the chain rule, divide sd by the duration
+    sdd-not-divided: your code returns the second derivative with respect to x = t /
+      duration as sdd. By the chain rule, divide sdd by duration^2
+    sdd-divided-once: your code divides sdd by the duration only once. Divide sdd by
+      duration^2, because sdd is the second derivative with respect to t
+    multiplied-by-T: your code multiplies sd by the duration and sdd by duration^2. By
+      the chain rule, divide by these factors instead
+    only-s-clipped: your code clamps only s before the start and after the end. Set sd
+      and sdd to 0 at these times, because the robot is at rest
     """
     right = quintic_scaling(t, T)
     return {

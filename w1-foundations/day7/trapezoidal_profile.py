@@ -67,20 +67,22 @@ def to_top(t, L, a, top):
 
 @row.wrongs
 def _(t, L, v, a):
-    """no-triangle: your maximum velocity is always v. If L is less than v^2 / a, use
-      the lower maximum velocity of a triangular profile, because the arm cannot reach v
-    triangle-too-late: your profile is a triangle only for L < v^2 / (2 a), which is the
-      distance of one ramp. Use a triangle for all L < v^2 / a, because the profile has
-      two ramps
-    triangle-too-soon: your profile is a triangle for all L < 2 v^2 / a, so its velocity
-      can exceed v. Use a triangle only for L < v^2 / a, which is the distance of both
-      ramps
-    triangle-too-high: your triangle has the height sqrt(2 L a), so its area is 2 L.
-      Choose the height so that the area of the velocity profile is L
-    triangle-too-low: your triangle has the height sqrt(L a / 2), so its area is L / 2.
-      Choose the height so that the area of the velocity profile is L
-    triangle-not-a-root: your triangle has the height L a, which is a squared velocity.
-      Use the square root of L a instead
+    """no-triangle: your code uses the maximum velocity v even if the distance L is too
+      short to reach v. For L < v^2 / a, use a triangular profile with a lower maximum
+      velocity
+    triangle-too-late: your code uses a triangular profile only for L < v^2 / (2 a),
+      which is the distance of one ramp. Use a triangular profile for all L < v^2 / a,
+      which is the distance of both ramps
+    triangle-too-soon: your code uses a triangular profile for all L < 2 v^2 / a, so the
+      velocity can exceed v. Use a triangular profile only for L < v^2 / a, which is the
+      distance of both ramps
+    triangle-too-high: your triangular profile has the height sqrt(2 L a), so its area
+      is 2 L. The area should be L, because the area under the velocity is the distance
+    triangle-too-low: your triangular profile has the height sqrt(L a / 2), so its area
+      is L / 2. The area should be L, because the area under the velocity is the
+      distance
+    triangle-not-a-root: your triangular profile has the height L a, which has the unit
+      of a squared velocity. Use the square root of L a instead
     """
     peak = np.sqrt(L * a)
     short = v**2 > L * a  # L is too short to reach v
@@ -97,14 +99,14 @@ def _(t, L, v, a):
 
 @row.wrongs
 def _(t, L, v, a):
-    """ramps-way-forgotten: your phase of constant velocity starts at position 0. This
-      phase should start at the position where the acceleration phase ends
-    does-not-stop: your acceleration is still `-a` after the end, so the arm moves
-      backwards. The acceleration should be 0, because the arm is at rest
-    does-not-wait: your acceleration is already `a` before the start. The acceleration
-      should be 0, because the arm is at rest
-    does-not-wait-or-stop: your acceleration is already `a` before the start and still
-      `-a` after the end. Both values should be 0, because the arm is at rest
+    """ramps-way-forgotten: your code starts the phase of constant velocity at position
+      0. This phase should start at the position where the acceleration phase ends
+    does-not-stop: your code continues the deceleration after the end, so the arm moves
+      backwards. The arm should be at rest at position L instead
+    does-not-wait: your code uses the formulas of the acceleration phase for t < 0.
+      Before the start, the arm should be at rest at position 0
+    does-not-wait-or-stop: your code accelerates before the start and decelerates after
+      the end. The arm should be at rest before the start and after the end
     """
     top, ramp, T = timing(L, v, a)
     left = T - t

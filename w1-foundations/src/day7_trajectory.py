@@ -54,8 +54,8 @@ def quintic_scaling(t: float, duration: float) -> np.ndarray:
     # region 7.1
     x = np.clip(t / duration, 0.0, 1.0)  # the fraction of the duration, 0 to 1
     s = 10 * x**3 - 15 * x**4 + 6 * x**5  # the path parameter
-    sd = (30 * x**2 - 60 * x**3 + 30 * x**4) / duration  # its velocity
-    sdd = (60 * x - 180 * x**2 + 120 * x**3) / duration**2  # its acceleration
+    sd = (30 * x**2 - 60 * x**3 + 30 * x**4) / duration  # the velocity of s
+    sdd = (60 * x - 180 * x**2 + 120 * x**3) / duration**2  # the acceleration of s
     return np.array([s, sd, sdd])  # s, sd and sdd, in this order
     # endregion 7.1
 
@@ -72,8 +72,8 @@ def quintic_duration(
     limit of the acceleration, takes 1 s (Modern Robotics, section 9.2.2).
     """
     # region 7.2
-    by_speed = 15 / 8 * np.abs(delta_q) / v_max  # the times within v_max, by joint
-    by_accel = np.sqrt(10 / np.sqrt(3) * np.abs(delta_q) / a_max)  # those within a_max
+    by_speed = 15 / 8 * np.abs(delta_q) / v_max  # the times for v_max
+    by_accel = np.sqrt(10 / np.sqrt(3) * np.abs(delta_q) / a_max)  # the times for a_max
     return max(by_speed.max(), by_accel.max())  # the longest of these times
     # endregion 7.2
 
@@ -229,7 +229,7 @@ def max_cube_mass(grip: float, mu: float, acceleration: float) -> float:
     max_cube_mass(0.9247, 1.0, 0.0) -> 0.189
     """
     # region 7.9
-    return 2 * mu * grip / (acceleration - GRAVITY[2])  # friction by force per kg
+    return 2 * mu * grip / (acceleration - GRAVITY[2])  # the largest mass
     # endregion 7.9
 
 

@@ -54,19 +54,19 @@ def exp_of(xi):
 
 @row.wrongs
 def _(T, xi):
-    """on-the-right: your code computes T exp([xi]), as for a twist in the moving frame.
-      The twist xi is expressed in the frame in which T is given, so the exponential
-      belongs on the left
-    apart: your code rotates R and adds v to t. A rotation about the origin moves t as
-      well, so multiply T by the whole exponential
-    first-order: your result is T + [xi] T, which is not a rigid transform. Use the
-      exponential
-    t-not-turned: your code does not rotate t. A rotation about the origin moves t as
-      well, so multiply T by the whole exponential
-    v-as-translation: the translation in your exponential is v, which is correct only if
-      omega is 0 or parallel to v. Use the translation of the matrix exponential instead
-    length-lost: your code normalises xi, so the rotation angle is 1 rad. The angle
-      should be the norm of omega
+    """on-the-right: your code computes T exp([xi]). Compute exp([xi]) T instead,
+      because the twist xi is expressed in the frame in which T is given
+    apart: your code rotates R and adds v to t. Multiply T by the whole exponential
+      instead, because a rotation about the origin also moves t
+    first-order: your code returns T + [xi] T, which is not a rigid transform. Return
+      exp([xi]) T instead
+    t-not-turned: your code does not rotate t. Multiply T by the whole exponential
+      instead, because a rotation about the origin also moves t
+    v-as-translation: your code uses v as the translation of the exponential, which is
+      correct only if omega is 0 or parallel to v. Use the translation of the matrix
+      exponential instead
+    length-lost: your code divides xi by the norm of omega, so the rotation angle is 1
+      rad. The rotation angle should be the norm of omega
     slides-left-out: your code returns T unchanged if omega is 0. Translate T by v
       instead
     identity-where-still: your code returns the identity matrix for xi = 0. Return T

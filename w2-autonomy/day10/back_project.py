@@ -56,15 +56,18 @@ def not_scaled(ray, d):
 
 
 for slug, says, other in (
-    ("range-for-depth", "your code uses the depth as the distance along the ray. The "
-                        "depth is measured along the camera's z axis, so scale the "
-                        "ray such that its z component equals the depth",
+    ("range-for-depth",
+     "your code uses the depth as the distance along the ray. Scale the ray such that "
+     "its z component equals the depth, because the depth is measured along the "
+     "camera's z axis",
      {"ray": unit_ray}),
-    ("K-for-its-inverse", "your code multiplies the pixel by K. Use the inverse of K, "
-                          "because K maps points to pixels",
+    ("K-for-its-inverse",
+     "your code multiplies the pixel by K. Multiply the pixel by the inverse of K "
+     "instead, because K maps points to pixels",
                           {"ray": lambda K, h, d: h @ K.T}),
-    ("centre-forgotten", "your code does not subtract the principal point from the "
-                         "pixel. Subtract it before you divide by the focal length",
+    ("centre-forgotten",
+     "your code does not subtract the principal point from the pixel. Subtract the "
+     "principal point before you divide by the focal length",
      {"ray": lambda K, h, d: h / [K[0, 0], K[1, 1], 1]}),
     ("centre-added", "your code adds the principal point to the pixel. Subtract the "
                      "principal point instead",
@@ -72,27 +75,31 @@ for slug, says, other in (
                       / [K[0, 0], K[1, 1], 1]}),
     ("centre-swapped", "your code swaps cx and cy. Use cx for u and cy for v",
      {"ray": lambda K, h, d: right_ray(swapped(K), h)}),
-    ("x-and-y-turned-round", "your code negates x and y. Keep their signs, because x "
-                             "points to the right like u, and y points down like v",
+    ("x-and-y-turned-round",
+     "your code negates x and y. Keep the signs, because x and u both point to the "
+     "right, and y and v both point down",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, -1, 1]}),
-    ("x-left", "your code negates x. Keep its sign, because x and u both point to the "
-               "right",
+    ("x-left",
+     "your code negates x. Keep the sign of x, because x and u both point to the right",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, 1, 1]}),
-    ("f-multiplied", "your code multiplies the distance from the principal point by "
-                     "f. Divide it by f instead",
+    ("f-multiplied",
+     "your code multiplies the distance from the principal point by f. Divide this "
+     "distance by f instead",
      {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
                                * [K[0, 0], K[1, 1], 1]}),
     ("f-forgotten", "your code omits the focal length. Divide the distance from the "
                     "principal point by f",
      {"ray": lambda K, h, d: h - K[:, 2] * [1, 1, 0]}),
-    ("y-up", "your code negates y. Keep its sign, because y and v both point down",
+    ("y-up",
+     "your code negates y. Keep the sign of y, because y and v both point down",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, 1]}),
-    ("view-along-minus-z", "your code negates z. Keep its sign, because in this task "
-                           "the camera looks along +z",
+    ("view-along-minus-z",
+     "your code negates z. Keep the sign of z, because in this task the camera looks "
+     "along +z",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, 1, -1]}),
-    ("mujoco-axes", "your code negates y and z, as for MuJoCo's camera frame. "
-                    "T_world_cam is already the pose of a frame with y down and z "
-                    "forward, so keep the signs",
+    ("mujoco-axes",
+     "your code negates y and z, as for MuJoCo's camera frame. Keep the signs, because "
+     "T_world_cam is already the pose of a frame with y down and z forward",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, -1]}),
     ("middle-added", "your code adds half a pixel. Omit this shift, because (0.5, "
                      "0.5) is already the centre of the first pixel",
@@ -104,19 +111,20 @@ for slug, says, other in (
     ("depth-only-in-z", "your code multiplies only z by the depth. Multiply x and y "
                         "by the depth as well, so that the point stays on the ray",
      {"scaled": lambda ray, d: np.hstack([ray[:, :2], d])}),
-    ("depth-added", "your code adds the depth to z. Multiply the whole ray by the "
-                    "depth",
+    ("depth-added",
+     "your code adds the depth to z. Multiply the whole ray by the depth instead",
      {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
     ("depth-in-the-pixel", "your code replaces the 1 in (u, v, 1) by the depth. "
                            "Multiply K^-1 (u, v, 1) by the depth instead",
      {"ray": lambda K, h, d: right_ray(K, h * [1, 1, 0] + d * [0, 0, 1]),
       "scaled": not_scaled}),
-    ("moved-before-scaled", "your code transforms the ray by T before it multiplies "
-                            "the ray by the depth, so the depth also scales the "
-                            "translation. Multiply by the depth first",
+    ("moved-before-scaled",
+     "your code transforms the ray before it multiplies the ray by the depth, so the "
+     "depth also scales the translation. Multiply by the depth first",
      {"scaled": not_scaled, "moved": lambda R, t, p, d: d * (p @ R.T + t)}),
-    ("T-forgotten", "your points are in the camera frame. Transform them to the world "
-                    "frame", {"moved": lambda R, t, p, d: p}),
+    ("T-forgotten",
+     "your code returns the points in the camera frame. Transform the points to the "
+     "world frame", {"moved": lambda R, t, p, d: p}),
     ("half-inverted", "your code computes R^T p - t, which is neither T p nor T^-1 p. "
                       "Compute T p as R p + t",
      {"moved": lambda R, t, p, d: p @ R - t}),
@@ -129,8 +137,8 @@ for slug, says, other in (
 
 @row.wrong("depth-along-columns", hidden="the lab never has three points")
 def _(K, T_world_cam, pixels, depth):
-    """your code multiplies the columns by the depths. Each point is a row, so multiply
-    by depth[:, None] instead"""
+    """your code multiplies each column of the points by one depth. Multiply by
+    depth[:, None] instead, because each point is a row"""
     by = depth if len(depth) == 3 else depth[:, None]
     return placed(K, T_world_cam, pixels, depth, scaled=lambda ray, _: ray * by)
 

@@ -25,22 +25,24 @@ def matrix(fx, fy, cx, cy):
 
 @row.wrongs(hidden={"whole-division": "the lab's images have even sides"})
 def _(fovy, width, height):
-    """width-for-height: your code computes f from the width. Use the height, because
-      fovy is the vertical field of view
-    two-focal-lengths: your code computes fx from the width. The pixels are square, so
-      use f from the height for both axes
-    sine-for-tangent: your code computes f with the sine of half the angle. Use the
-      tangent, because half the height and f are the two legs of a right triangle
-    middle-of-a-pixel: your principal point is ((width - 1) / 2, (height - 1) / 2), as
-      in OpenCV. Use (width / 2, height / 2), because in this task (0, 0) is the corner
-      of the image
-    centre-at-0: your principal point is (0, 0). It should be the centre of the image
-    centre-whole: your principal point is (width, height). It should be (width / 2,
-      height / 2), the centre of the image
-    y-up: your second focal length is negative. It should be positive, because v and y
-      both point down
+    """width-for-height: your code computes f from the width. Use the height instead,
+      because fovy is the vertical field of view
+    two-focal-lengths: your code computes fx from the width. Use f from the height for
+      both axes, because the pixels are square
+    sine-for-tangent: your code computes f with the sine of half the field of view. Use
+      the tangent instead, because half the height and f are the two legs of a right
+      triangle
+    middle-of-a-pixel: your code uses ((width - 1) / 2, (height - 1) / 2) as the
+      principal point. Use (width / 2, height / 2) instead, because in this task (0, 0)
+      is the corner of the image
+    centre-at-0: your code uses (0, 0) as the principal point. Use (width / 2, height /
+      2) instead, which is the centre of the image
+    centre-whole: your code uses (width, height) as the principal point. Use (width / 2,
+      height / 2) instead, which is the centre of the image
+    y-up: your code returns a negative fy. The focal length fy should be positive,
+      because v and y both point down
     whole-division: your code uses the operator //, which rounds half of an odd number
-      down. Use /, because the centre of 353 pixels is at 176.5
+      down. Use / instead, because the centre of 353 pixels is at 176.5
     """
     f = height / 2 / np.tan(fovy / 2)
     fw = width / 2 / np.tan(fovy / 2)

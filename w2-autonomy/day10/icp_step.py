@@ -39,28 +39,28 @@ def once_each(away):
 
 @row.wrongs
 def _(T, source, target):
-    """step-alone: your result is the motion of the source points after T has moved
-      them. Return the motion of the source points themselves
-    step-on-the-right: your code multiplies T by the step on the right. The step is
-      applied after T, so it belongs on the left
-    step-twice: your code applies T twice. The motion is fitted to the source itself, so
-      it already contains T
-    step-twice 2: your code applies T twice. The motion is fitted to the source itself,
-      so it already contains T
+    """step-alone: your code returns the motion that is fitted to the source points
+      moved by T. Return the motion of the source points themselves instead
+    step-on-the-right: your code multiplies T by the step from the right. Multiply T
+      from the left instead, because the step is applied after T
+    step-twice: your code multiplies the fitted motion by T. Omit T, because the motion
+      is fitted to the source itself and already contains T
+    step-twice 2: your code multiplies the fitted motion by T. Omit T, because the
+      motion is fitted to the source itself and already contains T
     by-sizes-added: your code chooses the nearest point by the sum of the absolute
       differences. Use the Euclidean distance instead
     nearer-half: your code uses only the closer half of the pairs for the fit. Use all
-      pairs
+      pairs instead
     each-once: your code uses each target point at most once. Omit this restriction,
       because several source points may have the same nearest target point
     in-the-plane: your code uses only x and y to find the nearest point. Use all three
-      coordinates
+      coordinates instead
     pairs-of-the-target: your code pairs each target point with the nearest source
-      point. Pair each source point with the nearest target point
+      point. Pair each source point with the nearest target point instead
     first-to-first: your code pairs the points by their indices. Pair each source point
-      with the nearest target point
-    T-unchanged: your output is T itself. Return the motion that is fitted to the pairs
-      of source and target points
+      with the nearest target point instead
+    T-unchanged: your code returns T itself. Return the motion that is fitted to the
+      pairs of source and target points instead
     """
     now = source @ T[:3, :3].T + T[:3, 3]
     best = nearest(now, target)

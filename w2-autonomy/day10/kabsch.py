@@ -64,52 +64,56 @@ def all_turned(U, Vt):
 
 
 for slug, says, other in (
-    ("mirror", "your code does not check the determinant of U V^T. If it is -1, U V^T "
-               "is a reflection, so negate the singular vector in U that belongs to "
-               "the smallest singular value",
+    ("mirror",
+     "your code does not check the determinant of U V^T. If the determinant is -1, "
+     "negate the singular vector in U that belongs to the smallest singular value",
                {"rotation": lambda U, Vt: U @ Vt}),
-    ("mirror-turned-round", "if U V^T is a reflection, your code negates the whole "
-                            "matrix. Negate only the singular vector in U that "
-                            "belongs to the smallest singular value",
+    ("mirror-turned-round",
+     "your code negates the whole matrix if U V^T is a reflection. Negate only the "
+     "singular vector in U that belongs to the smallest singular value",
      {"rotation": all_turned}),
-    ("largest-turned-round", "your code corrects a reflection by negating the "
-                             "singular vector of the largest singular value. Negate "
-                             "the singular vector of the smallest one instead, "
-                             "because this increases the error least",
+    ("largest-turned-round",
+     "your code corrects a reflection by negating the singular vector of the largest "
+     "singular value. Negate the singular vector of the smallest one instead, because "
+     "this choice increases the error least",
      {"rotation": lambda U, Vt: U @ np.diag(
          [np.linalg.det(U @ Vt), 1, 1]) @ Vt}),
-    ("column-turned-round", "your code corrects a reflection by negating the third "
-                            "column of V^T. Negate the third row, because the "
-                            "singular vectors are the rows of V^T",
+    ("column-turned-round",
+     "your code corrects a reflection by negating the third column of V^T. Negate the "
+     "third row instead, because the singular vectors are the rows of V^T",
      {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
-    ("always-turned-round", "your code always negates the third singular vector. "
-                            "Negate it only if U V^T is a reflection",
+    ("always-turned-round",
+     "your code always negates the third singular vector. Negate this vector only if U "
+     "V^T is a reflection",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
-    ("R-transposed", "your rotation is transposed, so it maps the target to the "
-                     "source. It should be U V^T, from the SVD of target^T source "
-                     "with both clouds centred",
+    ("R-transposed",
+     "your code returns the transposed rotation, which maps the target to the source. "
+     "Use U V^T from the SVD of target^T source, with both clouds centred",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
-    ("worst-fit", "your R is the rotation with the largest sum of squared distances, "
-                  "not the smallest. Either a sign is wrong, or your eigenvector "
-                  "belongs to the smallest eigenvalue",
+    ("worst-fit",
+     "your code returns the rotation with the largest sum of squared distances, not "
+     "the smallest. Either a sign is wrong, or your eigenvector belongs to the "
+     "smallest eigenvalue",
      {"rotation": lambda U, Vt: proper(-U, Vt)}),
-    ("not-centred", "your code does not subtract the centroids before the SVD. "
-                    "Subtract them, because otherwise the translation changes the "
-                    "rotation",
+    ("not-centred",
+     "your code does not subtract the centroids before the SVD. Subtract the "
+     "centroids, because otherwise the translation changes the rotation",
      {"centre": lambda X: np.zeros(3)}),
-    ("one-number-for-the-centre", "your centroid is a single number, the mean of all "
-                                  "coordinates. Use axis=0 to compute one mean per "
-                                  "coordinate",
+    ("one-number-for-the-centre",
+     "your code uses the mean of all coordinates, a single number, as the centroid. "
+     "Use axis=0 to compute one mean for each coordinate",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
-    ("about-the-first", "your code subtracts the first points instead of the "
-                        "centroids. Subtract the centroids, because otherwise the "
-                        "noise of the first pair affects all other pairs",
+    ("about-the-first",
+     "your code subtracts the first points before the SVD. Subtract the centroids "
+     "instead, because otherwise the noise of the first pair affects the whole fit",
      {"centre": lambda X: X[0]}),
-    ("scaled", "your R contains a scale factor. A rigid motion preserves distances, so "
-     "R should be a pure rotation",
+    ("scaled",
+     "your code includes a scale factor in R. Return a pure rotation instead, because "
+     "a rigid motion preserves distances",
      {"scale": lambda s, source: s.sum() / np.sum(source * source)}),
-    ("t-turned-too", "your translation is R (b - a), where a and b are the centroids. "
-                     "Rotate only a, so that the translation is b - R a",
+    ("t-turned-too",
+     "your code uses the translation R (b - a), where a and b are the centroids of "
+     "source and target. Use b - R a instead",
      {"shift": lambda R, a, b: R @ (b - a)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(fitted, **other))
@@ -117,12 +121,12 @@ for slug, says, other in (
 
 @row.wrongs
 def _(source, target):
-    """t-of-the-first: your translation fits only the first pair. Use the centroids
-      instead of the first points
+    """t-of-the-first: your code computes the translation from the first pair of points.
+      Use the centroids instead of the first points
     first-for-centre: your code uses the first points instead of the centroids. Use the
-      centroids, because otherwise the noise of the first pair affects all other pairs
-    affine: your function fits an affine map by least squares. The matrix of an affine
-      map need not be a rotation, so fit a rotation and a translation
+      centroids, because otherwise the noise of the first pair affects the whole fit
+    affine: your function fits an affine map by least squares. Fit a rotation and a
+      translation instead, because the matrix of an affine map need not be a rotation
     """
     R = kabsch(source, target)[:3, :3]
     one = np.hstack([source, np.ones((len(source), 1))])

@@ -30,10 +30,10 @@ def covariance(
 
 
 for slug, says, other in (
-    ("mean-over-points", "your code multiplies the result by the number of pixel "
-                         "coordinates, or it divides J^T J by this number. Omit this "
-                         "factor, because each additional pixel should reduce the "
-                         "covariance",
+    ("mean-over-points",
+     "your code multiplies the result by the number of pixel coordinates, or it "
+     "divides J^T J by this number. Omit this factor, because each additional "
+     "coordinate should reduce the covariance",
                          {"share": lambda n: n}),
     ("mean-over-points", "your code multiplies the result by the number of points, or "
                          "it divides J^T J by this number. Omit this factor, because "
@@ -47,20 +47,23 @@ for slug, says, other in (
                           "coordinates. Omit this division, because J^T J is already "
                           "the sum over all coordinates",
      {"share": lambda n: 1 / n}),
-    ("reshaped-across", "your code reshapes J to (6, 2 n), which mixes its rows. J has "
-                        "one row per pixel coordinate, so its shape is (2 n, 6)",
+    ("reshaped-across",
+     "your code reshapes J to (6, 2 n), which mixes its rows. Reshape J to (2 n, 6) "
+     "instead, with one row for each pixel coordinate",
      {"rows": lambda J: J.reshape(6, -1).T}),
-    ("u-alone", "your code uses only the rows for u. Use the rows for v as well, "
-                "because they contain information too", {"rows": lambda J: J[:, 0]}),
-    ("v-alone", "your code uses only the rows for v. Use the rows for u as well, "
-                "because they contain information too", {"rows": lambda J: J[:, 1]}),
-    ("sigma-for-variance", "your code takes the square root of each entry of the "
-                           "covariance. Omit it, because a covariance contains "
-                           "variances, for example in rad^2",
+    ("u-alone",
+     "your code uses only the rows for u. Use the rows for v as well, because they "
+     "also contain information about the pose", {"rows": lambda J: J[:, 0]}),
+    ("v-alone",
+     "your code uses only the rows for v. Use the rows for u as well, because they "
+     "also contain information about the pose", {"rows": lambda J: J[:, 1]}),
+    ("sigma-for-variance",
+     "your code takes the square root of each entry of the covariance. Omit the square "
+     "root, because a covariance contains variances, for example in rad^2",
      {"told": lambda C: np.sqrt(np.abs(C))}),
-    ("sigma-for-variance", "your code takes the square root of each entry of the "
-                           "covariance. Omit it, because a covariance contains "
-                           "variances, for example in rad^2",
+    ("sigma-for-variance",
+     "your code takes the square root of each entry of the covariance. Omit the square "
+     "root, because a covariance contains variances, for example in rad^2",
                            {"told": np.sqrt}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(covariance, **other))
@@ -68,10 +71,10 @@ for slug, says, other in (
 
 @row.wrongs
 def _(J, sigma):
-    """information: your result is the information matrix J^T J / sigma^2. Return its
-      inverse, which is the covariance
-    by-what-is-left: your code divides the result by 2 n - 6 degrees of freedom. Omit
-      this division, which belongs to the estimate of an unknown sigma
+    """information: your code returns the information matrix J^T J / sigma^2. Return the
+      inverse of this matrix instead, which is the covariance
+    by-what-is-left: your code divides the result by 2 n - 6, the degrees of freedom.
+      Omit this division, because sigma is given and not estimated from the fit
     each-point-alone: your code adds the covariances of the individual points. Add their
       information matrices instead, and invert the sum
     """

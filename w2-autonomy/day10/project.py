@@ -58,19 +58,21 @@ for slug, says, other in (
     ("half-inverted", "your code computes R^T p - t, which is neither T p nor T^-1 p. "
                       "Compute T p as R p + t",
      {"moved": lambda R, t, x: x @ R - t}),
-    ("T-forgotten", "your code does not use T_cam_world. The points are in the world "
-                    "frame, so transform them to the camera frame",
+    ("T-forgotten",
+     "your code does not use T_cam_world. First transform the points to the camera "
+     "frame, because they are given in the world frame",
      {"moved": lambda R, t, x: x}),
     ("t-before-R", "your code adds the translation before it rotates the point. "
                    "Rotate the point first, because T p is R p + t",
      {"moved": lambda R, t, x: (x + t) @ R.T}),
-    ("centre-before-dividing", "your code adds the principal point before it divides "
-                               "by the depth. Add it after the division",
+    ("centre-before-dividing",
+     "your code adds the principal point before it divides by the depth. Add the "
+     "principal point after the division instead",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2], p[:, 2]])}),
-    ("centre-forgotten", "your code omits the principal point. Add it, because a "
-                         "point straight ahead projects to the centre of the image "
-                         "and not to pixel (0, 0)",
+    ("centre-forgotten",
+     "your code omits the principal point. Add the principal point, because a point "
+     "with x = y = 0 should project to the centre of the image",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
     ("centre-taken-off", "your code subtracts the principal point. Add the principal "
                          "point instead",
@@ -80,35 +82,40 @@ for slug, says, other in (
     ("f-forgotten", "your code omits the focal length. Multiply x / z by fx and y / z "
                     "by fy to convert these ratios to pixels",
                     {"times": lambda K, p: upright(K, p, f=0.0)}),
-    ("y-up", "your code negates y. Keep its sign, because y and v both point down",
+    ("y-up",
+     "your code negates y. Keep the sign of y, because y and v both point down",
      {"times": lambda K, p: p * [1, -1, 1] @ K.T}),
-    ("view-along-minus-z", "your code divides the point by -z, as for MuJoCo's camera "
-                           "frame. In this task z points forward, so divide by z",
+    ("view-along-minus-z",
+     "your code divides the point by -z, as for MuJoCo's camera frame. Divide by z "
+     "instead, because in this task the z axis points forward",
      {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
-    ("mujoco-axes", "your code negates y and z, as for MuJoCo's camera frame. "
-                    "T_cam_world already maps to a frame with y down and z forward, "
-                    "so keep the signs",
+    ("mujoco-axes",
+     "your code negates y and z, as for MuJoCo's camera frame. Keep the signs, because "
+     "T_cam_world already maps to a frame with y down and z forward",
      {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
-    ("divided-by-range", "your code divides the point by its distance from the "
-                         "camera. Divide it by its depth z instead",
+    ("divided-by-range",
+     "your code divides the point by its distance from the camera. Divide the point by "
+     "its depth z instead",
      {"divided": lambda h, p: h[:, :2] / length(p)}),
-    ("divided-by-range", "your code divides the point by its distance from the "
-                         "camera. Divide it by its depth z instead",
+    ("divided-by-range",
+     "your code divides the point by its distance from the camera. Divide the point by "
+     "its depth z instead",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2] * length(p), length(p)])}),
     ("first-depth-for-all", "your code divides all points by the depth of the first "
                             "one. Divide each point by its own depth",
      {"divided": lambda h, p: h[:, :2] / h[0, 2]}),
-    ("divided-by-pixel-length", "your code divides the homogeneous pixel by its norm. "
-                                "Divide it by its last entry instead, which is the "
-                                "depth",
+    ("divided-by-pixel-length",
+     "your code divides the homogeneous pixel by its norm. Divide by the depth "
+     "instead, which is the last entry of the homogeneous pixel",
      {"divided": lambda h, p: h[:, :2] / length(h)}),
-    ("homogeneous-by-mistake", "your code divides the homogeneous pixel by the depth "
-                               "twice. Divide it only once",
+    ("homogeneous-by-mistake",
+     "your code divides the homogeneous pixel by the depth twice. Divide by the depth "
+     "only once",
      {"divided": lambda h, p: h[:, :2] / h[:, 2:] ** 2}),
-    ("middle-of-a-pixel", "your code subtracts half a pixel, as in OpenCV, where (0, "
-                          "0) is the centre of the first pixel. Omit this shift, "
-                          "because in this task (0, 0) is the corner of the image",
+    ("middle-of-a-pixel",
+     "your code subtracts half a pixel, as in OpenCV. Omit this shift, because in this "
+     "task (0, 0) is the corner of the image and not the centre of the first pixel",
      {"told": lambda pixels: pixels - 0.5}),
     ("half-a-pixel-added", "your code adds half a pixel. Omit this shift, because "
                            "pixel coordinates and the principal point are both "

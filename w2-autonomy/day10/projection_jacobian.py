@@ -91,57 +91,70 @@ def with_one_name(of, other):
 
 
 for slug, says, other in (
-    ("depth-column-forgotten", "your derivatives with respect to z are 0. They should "
-                               "be -fx x / z^2 and -fy y / z^2, because a point that "
-                               "comes nearer moves away from the principal point",
+    ("depth-column-forgotten",
+     "your code returns 0 for the derivatives with respect to z. These derivatives "
+     "should be -fx x / z^2 and -fy y / z^2, because a nearer point projects farther "
+     "from the principal point",
                                {"pixel": third(lambda z: 0.0)}),
-    ("depth-column-sign", "your derivatives with respect to z have the wrong sign. "
-                          "The derivative of x / z with respect to z is -x / z^2",
+    ("depth-column-sign",
+     "your code returns the derivatives with respect to z with the wrong sign. The "
+     "derivative of x / z with respect to z is -x / z^2",
                           {"pixel": third(lambda z: -1.0)}),
-    ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
-                   "derivative of x / z with respect to z is -x / z^2",
+    ("power-of-z",
+     "your code uses the wrong power of z in the derivatives with respect to z. The "
+     "derivative of x / z with respect to z is -x / z^2",
      {"pixel": third(lambda z: z)}),
-    ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
-                   "derivative of x / z with respect to z is -x / z^2",
+    ("power-of-z",
+     "your code uses the wrong power of z in the derivatives with respect to z. The "
+     "derivative of x / z with respect to z is -x / z^2",
                    {"pixel": third(lambda z: z * z)}),
-    ("power-of-z", "your derivatives with respect to z have the wrong power of z. The "
-                   "derivative of x / z with respect to z is -x / z^2",
+    ("power-of-z",
+     "your code uses the wrong power of z in the derivatives with respect to z. The "
+     "derivative of x / z with respect to z is -x / z^2",
                    {"pixel": third(lambda z: 1 / z)}),
-    ("f-forgotten", "your code omits the focal lengths, so your entries are the "
-                    "derivatives of x / z and y / z. Multiply the rows by fx and fy",
+    ("f-forgotten",
+     "your code omits the focal lengths. Multiply the row for u by fx and the row for "
+     "v by fy",
      {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
-    ("centre-in-the-slope", "your derivatives with respect to z contain the principal "
-                            "point. Omit it, because the derivative of a constant is "
-                            "0",
+    ("centre-in-the-slope",
+     "your code includes the principal point in the derivatives with respect to z. "
+     "Omit the principal point, because the derivative of a constant is 0",
      {"pixel": with_the_centre}),
-    ("x-for-y", "your row for v contains x in the derivative with respect to z. This "
-                "entry should be -fy y / z^2", {"pixel": with_one_name(1, 0)}),
-    ("y-for-x", "your row for u contains y in the derivative with respect to z. This "
-                "entry should be -fx x / z^2", {"pixel": with_one_name(0, 1)}),
+    ("x-for-y",
+     "your code uses x instead of y in the row for v. The derivative with respect to z "
+     "should be -fy y / z^2 in this row", {"pixel": with_one_name(1, 0)}),
+    ("y-for-x",
+     "your code uses y instead of x in the row for u. The derivative with respect to z "
+     "should be -fx x / z^2 in this row", {"pixel": with_one_name(0, 1)}),
     ("first-columns-not-divided", "your code does not divide the derivatives with "
                                   "respect to x and y by z. These derivatives should "
                                   "be fx / z and fy / z",
      {"pixel": lambda K, p: by_point(
          K, p) * np.where([True, True, False], depth(p, 1), 1.0)}),
-    ("pixels-for-x-and-y", "your derivatives with respect to z contain the pixel "
-                           "coordinates (u, v). Use x and y in the camera frame "
-                           "instead", {"pixel": of_the_pixel}),
-    ("range-for-depth", "your derivatives contain the distance of the point from the "
-                        "camera. Use its depth z instead",
+    ("pixels-for-x-and-y",
+     "your code uses the pixel coordinates (u, v) in the derivatives with respect to "
+     "z. Use x and y in the camera frame instead", {"pixel": of_the_pixel}),
+    ("range-for-depth",
+     "your code uses the distance of the point from the camera in the derivatives. Use "
+     "the depth z instead",
      {"pixel": lambda K, p: by_point(
          K, np.column_stack([p[:, :2], np.linalg.norm(p, axis=1)]))}),
     ("halves-swapped",
-     "your columns are in the order (v; omega). The order should be (omega; v)",
+     "your code returns the columns in the order (v; omega). The order should be "
+     "(omega; v)",
      {"told": lambda J: J[..., HALF]}),
-    ("rotation-sign", "your columns for omega have the wrong sign. Use -[p], because "
-                      "the velocity omega x p is equal to -[p] omega",
+    ("rotation-sign",
+     "your code returns the columns for omega with the wrong sign. Use -[p] in these "
+     "columns, because the velocity omega x p is equal to -[p] omega",
      {"twist": lambda p: by_twist(p, 1.0)}),
-    ("camera-moves", "your Jacobian has the wrong sign, as for a moving camera. "
-                     "Negate it, because in this task the points move and the camera "
-                     "does not",
+    ("camera-moves",
+     "your code returns the Jacobian of a moving camera, which has the opposite sign. "
+     "Negate the Jacobian, because in this task the points move and the camera does "
+     "not",
      {"told": np.negative}),
-    ("y-up", "your row for v has the wrong sign. Keep the sign of y, because y and v "
-             "both point down",
+    ("y-up",
+     "your code returns the row for v with the wrong sign. Keep the sign of y, because "
+     "y and v both point down",
      {"told": lambda J: J * [[1], [-1]]}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(jacobian, **other))
@@ -149,12 +162,14 @@ for slug, says, other in (
 
 @row.wrongs(hidden=dict.fromkeys(ONE_FOCAL_LENGTH, "the lab's camera has fx = fy"))
 def _(K, p_cam):
-    """fx-in-both-rows: your row for v contains fx. It should contain fy, K[1, 1]
-    fx-in-both-rows 2: your columns for omega contain fx in the row for v. This row
-      should contain fy, K[1, 1]
-    fy-in-both-rows: your row for u contains fy. It should contain fx, K[0, 0]
-    coordinates-not-divided: your code uses the formula for normalised coordinates with
-      x and y in metres. Divide x and y by z first
+    """fx-in-both-rows: your code uses fx in the row for v. Use fy instead, which is
+      K[1, 1]
+    fx-in-both-rows 2: your code uses fx in the row for v, but only in the columns for
+      omega. Use fy instead, which is K[1, 1]
+    fy-in-both-rows: your code uses fy in the row for u. Use fx instead, which is K[0,
+      0]
+    coordinates-not-divided: your code uses x and y in metres in the formula for
+      normalised coordinates. Divide x and y by z first
     """
     J = jacobian(K, p_cam)
     swap = [[1.0], [K[0, 0] / K[1, 1]]]

@@ -98,34 +98,42 @@ def steps(
 
 
 for slug, says, other in (
-    ("three-steps", "your result is the pose after three steps. Return the pose after "
-                    "ten steps", {"n": 3}),
-    ("J-of-the-guess", "your code uses the Jacobian of the guess in every step. "
-                       "Evaluate the Jacobian at the current pose", {"held": True}),
-    ("twist-halves-swapped", "your code treats the step as (v; omega). The columns of "
-                             "J begin with omega, so the step is (omega; v)",
+    ("three-steps",
+     "your code returns the pose after three steps. Return the pose after ten steps "
+     "instead", {"n": 3}),
+    ("J-of-the-guess",
+     "your code uses the Jacobian of the guess in every step. Evaluate the Jacobian at "
+     "the current pose instead", {"held": True}),
+    ("twist-halves-swapped",
+     "your code treats the step as (v; omega). The step is (omega; v), because the "
+     "columns of J begin with omega",
      {"move": lambda T, xi: apply_twist(T, np.roll(xi, 3))}),
-    ("body-twist", "your code multiplies T by each step on the right. The columns of "
-                   "J belong to twists in the camera frame, so the exponential "
-                   "belongs on the left",
+    ("body-twist",
+     "your code multiplies T by the exponential of each step from the right. Multiply "
+     "T from the left instead, because the columns of J belong to twists in the camera "
+     "frame",
      {"move": on_the_right}),
     ("first-order", "your code replaces the exponential by I + [xi], so R is no "
                     "longer a rotation. Use the matrix exponential instead",
      {"move": first_order}),
-    ("gradient", "your code uses J^T r as the step, where r is the residual. Use the "
-                 "Gauss-Newton step instead, which is the least-squares solution of J "
-                 "xi = r",
+    ("gradient",
+     "your code uses J^T r as the step, where r is the reprojection error. Use the "
+     "least-squares solution of J xi = r instead, which is the Gauss-Newton step",
      {"solve": downhill}),
-    ("each-from-the-guess", "your code applies each step to the guess. Apply each "
-                            "step to the pose after the previous step",
+    ("each-from-the-guess",
+     "your code applies each step to the guess. Apply each step to the pose after the "
+     "previous step instead",
                             {"since": lambda T, guess: guess}),
-    ("half-steps", "your code halves each step, so ten steps leave a thousandth of the "
-                   "error. Use the whole step", {"factor": 0.5}),
-    ("rows-mixed", "the rows of your J contain first all u, then all v, but your "
-                   "errors are in another order. Use the same order for both",
+    ("half-steps",
+     "your code halves each step, so ten steps leave a thousandth of the error. Use "
+     "the whole step instead", {"factor": 0.5}),
+    ("rows-mixed",
+     "your code puts all u before all v in the rows of J, but it orders the errors "
+     "point by point. Use the same order for both",
      {"solve": mixed}),
-    ("error-mixed", "your errors contain first all u, then all v, but the rows of "
-                    "your J are in another order. Use the same order for both",
+    ("error-mixed",
+     "your code puts all u before all v in the errors, but it orders the rows of J "
+     "point by point. Use the same order for both",
      {"solve": mixed_off}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(steps, **other))
@@ -133,7 +141,7 @@ for slug, says, other in (
 
 @row.wrongs
 def _(K, T_guess, points, pixels):
-    """guess-returned: your output is the guess itself. Does your loop update T?"""
+    """guess-returned: your code returns the guess itself. Does your loop update T?"""
     return {"guess-returned": T_guess}
 
 

@@ -132,60 +132,63 @@ def _(box_a, box_b):
     """any-for-all: your code reports an overlap if the intervals overlap on at least
       one axis. Two boxes overlap only if their intervals overlap on all three axes
     one-direction: your code makes only one of the two comparisons, so it reports an
-      overlap if box_b lies above box_a. Compare both ends of the intervals
+      overlap if `box_b` lies above `box_a`. Compare both ends of each interval
     one-direction 2: your code makes only one of the two comparisons, so it reports an
-      overlap if box_b lies below box_a. Compare both ends of the intervals
-    touching-left-out: your code reports boxes that only touch as separate. It should
-      report them as overlapping
-    touching-left-out 2: your code reports boxes that touch on one side as separate. It
-      should report them as overlapping
-    touching-left-out 3: your code reports boxes that touch on one side as separate. It
-      should report them as overlapping
-    negated: your code inverts the result. Return True if the boxes overlap
+      overlap if `box_b` lies below `box_a`. Compare both ends of each interval
+    touching-left-out: your code reports boxes that only touch as separate. Boxes that
+      only touch overlap, so use `<=` instead of `<`
+    touching-left-out 2: your code reports boxes as separate if an upper face of `box_a`
+      touches a lower face of `box_b`. Boxes that only touch overlap, so use `<=` in
+      both comparisons
+    touching-left-out 3: your code reports boxes as separate if a lower face of `box_a`
+      touches an upper face of `box_b`. Boxes that only touch overlap, so use `<=` in
+      both comparisons
+    negated: your code negates the result. Return True if the boxes overlap
     first-axis-only: your code compares only x. Two boxes overlap only if their
       intervals overlap on all three axes
     two-axes-only: your code does not compare z. Two boxes overlap only if their
       intervals overlap on all three axes
     contained: your code requires that one box contains the other. Compare the intervals
-      on each axis instead, because two boxes can also overlap partially
-    contained 2: your code requires that box_a contains box_b. Compare the intervals on
-      each axis instead, because two boxes can also overlap partially
-    contained 3: your code requires that box_b contains box_a. Compare the intervals on
-      each axis instead, because two boxes can also overlap partially
-    a-corner-inside: your code requires that the lower or the upper corner of box_b lies
-      in box_a. Compare the intervals on each axis, because both corners can lie outside
-    a-corner-inside 2: your code requires that the lower corner of box_b lies in box_a.
-      Compare the intervals on each axis, because this corner can lie outside
-    a-corner-inside 3: your code requires that the upper corner of box_b lies in box_a.
-      Compare the intervals on each axis, because this corner can lie outside
-    middles-inside: your code requires that the centre of box_a lies in box_b. Compare
-      the intervals on each axis, because this centre can lie outside
+      on each axis instead, because boxes can also overlap partially
+    contained 2: your code requires that `box_a` contains `box_b`. Compare the intervals
+      on each axis instead, because boxes can also overlap partially
+    contained 3: your code requires that `box_b` contains `box_a`. Compare the intervals
+      on each axis instead, because boxes can also overlap partially
+    a-corner-inside: your code requires that the lower or the upper corner of `box_b`
+      lies in `box_a`. Compare the intervals on each axis, because both corners can lie
+      outside
+    a-corner-inside 2: your code requires that the lower corner of `box_b` lies in
+      `box_a`. Compare the intervals on each axis, because this corner can lie outside
+    a-corner-inside 3: your code requires that the upper corner of `box_b` lies in
+      `box_a`. Compare the intervals on each axis, because this corner can lie outside
+    middles-inside: your code requires that the centre of `box_a` lies in `box_b`.
+      Compare the intervals on each axis, because this centre can lie outside
     middles-inside 2: your code requires that the centre of one box lies in the other
       box. Compare the intervals on each axis, because both centres can lie outside
-    half-of-one: your code uses only the half extents of box_a in the limit for the
-      distance between the centres. Add the half extents of box_b
+    half-of-one: your code compares the distance between the centres with the half
+      extents of `box_a` only. Add the half extents of `box_b`
     corners-only: your code tests whether a corner of one box lies in the other box.
       Compare the intervals on each axis, because two boxes can cross without such a
       corner => both
-    corners-only 2: your code tests whether a corner of box_b lies in box_a. Compare the
-      intervals on each axis, because two boxes can overlap without such a corner
+    corners-only 2: your code tests whether a corner of `box_b` lies in `box_a`. Compare
+      the intervals on each axis, because two boxes can overlap without such a corner
     corners-only 3: your code tests only the lower and the upper corner of each box.
       Compare the intervals on each axis, because all these corners can lie outside the
       other box
     corners-only 4: your code tests only the lower corner of each box. Compare the
       intervals on each axis, because both corners can lie outside the other box
-    balls: your code treats the boxes as spheres, because it compares the norm of the
-      vector between the centres. Compare each axis separately
-    balls 2: your code treats the boxes as spheres, because it compares the norm of the
-      vector between the centres. Compare each axis separately
-    balls 3: your code treats the boxes as spheres, because it compares the norm of the
-      vector between the centres. Compare each axis separately
-    sides-not-halved: your limit for the distance between the centres is the sum of the
-      sides. It should be half of this sum
-    sides-in-quarters: your limit for the distance between the centres is a quarter of
-      the sum of the sides. It should be half of this sum
+    balls: your code compares the norm of the vector between the centres, as for
+      spheres. Compare the boxes on each axis separately
+    balls 2: your code compares the norm of the vector between the centres, as for
+      spheres. Compare the boxes on each axis separately
+    balls 3: your code compares the norm of the vector between the centres, as for
+      spheres. Compare the boxes on each axis separately
+    sides-not-halved: your code compares the distance between the centres with the sum
+      of the sides. Compare it with half of this sum instead
+    sides-in-quarters: your code compares the distance between the centres with a
+      quarter of the sum of the sides. Compare it with half of this sum instead
     or-for-and: your code reports an overlap if one of the two comparisons holds on all
-      axes. Both comparisons must hold
+      axes. Both comparisons must hold on all axes
     two-axes-enough: your code reports an overlap if the intervals overlap on two axes.
       Two boxes overlap only if their intervals overlap on all three axes
     other-axes: your code does not compare y. Two boxes overlap only if their intervals
@@ -197,14 +200,14 @@ def _(box_a, box_b):
     other-axes 4: your code compares only z. Two boxes overlap only if their intervals
       overlap on all three axes
     volume: your code tests whether the product of the three overlaps is above 0. Test
-      whether each overlap is at least 0
+      whether each of the three overlaps is at least 0
     volume 2: your code tests whether the product of the three overlaps is at least 0.
       Test each overlap separately, because two negative overlaps have a positive
       product
     sum-of-overlaps: your code adds the overlaps of the three axes. Test each overlap
       separately, because each overlap must be at least 0
-    nearly-touching: your code reports an overlap for boxes with a small gap. Boxes with
-      a gap do not overlap, so omit the tolerance
+    nearly-touching: your code reports an overlap for boxes with a small gap. Omit the
+      tolerance, because boxes with a gap do not overlap
     always: your code always returns True. Compare the intervals on all three axes
     never: your code always returns False. Compare the intervals on all three axes
     """

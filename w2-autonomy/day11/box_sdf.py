@@ -68,91 +68,97 @@ def _(rng):
 def _(p, half_extents):
     """zero-inside: inside the box, your code returns 0. Return minus the distance to
       the nearest face instead
-    inside-positive: inside the box, your result is positive. It should be negative
-    sign: your result has the wrong sign. The distance should be positive outside the
-      box
-    largest-outside: outside the box, your code uses only the largest excess beyond a
-      face. Near an edge or a corner, take the norm of all positive excesses
-    sum-outside: outside the box, your code adds the excesses beyond the faces. Take
-      their norm, because they are perpendicular
-    inside-added-outside: outside the box, your code includes negative entries of |p| -
-      half_extents in the norm. Clamp them to 0 first
-    depth-added-outside: outside the box, your code adds the largest entry of |p| -
-      half_extents to the norm. Add this entry only inside the box, where it is negative
-    inside-by-the-norm: inside the box, your code returns minus the norm of all three
-      face distances. Return minus the smallest of these distances instead
+    inside-positive: inside the box, your code returns a positive distance. The signed
+      distance should be negative there
+    sign: your code negates the signed distance. It should be positive outside the box
+    largest-outside: outside the box, your code returns only the largest entry of
+      `abs(p) - half_extents`. Return the norm of the positive entries instead
+    sum-outside: outside the box, your code adds the positive entries of `abs(p) -
+      half_extents`. Take their norm instead, because they are distances along
+      perpendicular axes
+    inside-added-outside: outside the box, your code includes the negative entries of
+      `abs(p) - half_extents` in the norm. Clamp these entries at 0 first
+    depth-added-outside: outside the box, your code adds the largest entry of `abs(p) -
+      half_extents` to the norm. Add this entry only inside the box, where it is
+      negative
+    inside-by-the-norm: inside the box, your code returns minus the norm of the three
+      distances to the faces. Return minus the smallest of these distances instead
     farthest-face-inside: inside the box, your code uses the distance to the farthest
-      face. Use the nearest face, which has the largest entry of |p| - half_extents
-    farthest-face-inside 2: your code uses the smallest entry of |p| - half_extents in
-      min(..., 0), which belongs to the farthest face. Use the largest entry, which
-      belongs to the nearest face
+      face. Use the largest entry of `abs(p) - half_extents`, which belongs to the
+      nearest face
+    farthest-face-inside 2: your code uses the smallest entry of `abs(p) - half_extents`
+      in `min(..., 0)`. Use the largest entry, which belongs to the nearest face
     to-the-middle-inside: inside the box, your code returns minus the distance to the
-      centre. Use the distance to the nearest face instead
-    to-the-middle: your code returns the distance to the centre, so the size of the box
-      has no effect. Use the distance to the surface of the box instead
+      centre. Return minus the distance to the nearest face instead
+    to-the-middle: your code returns the distance to the centre of the box. Return the
+      distance to its surface instead
     box-as-a-ball: your code treats the box as a sphere. Compare each coordinate with
-      its own half extent
+      the half extent along its own axis
     box-as-a-ball 2: your code treats the box as a sphere. Compare each coordinate with
-      its own half extent
+      the half extent along its own axis
     box-as-a-ball 3: your code treats the box as a sphere. Compare each coordinate with
-      its own half extent
-    whole-sides: your code halves half_extents. Use half_extents itself, which already
-      contains half of each side
-    twice-the-sides: your code doubles half_extents. Use half_extents itself, because
-      the faces are at plus and minus half_extents
-    abs-forgotten: your code omits the absolute value of p, so the result is wrong for
-      points with a negative coordinate. Use |p| - half_extents
+      the half extent along its own axis
+    whole-sides: your code halves `half_extents`. Use `half_extents` itself, because
+      each entry is already half of a side
+    twice-the-sides: your code doubles `half_extents`. Use `half_extents` itself,
+      because the faces are at plus and minus `half_extents`
+    abs-forgotten: your code omits the absolute value of p. Use `abs(p) - half_extents`,
+      because otherwise the result is wrong for points with a negative coordinate
     abs-forgotten-zero-inside: your code omits the absolute value of p, and it returns 0
-      inside the box. Use |p| - half_extents, and return minus the distance to the
+      inside the box. Use `abs(p) - half_extents`, and return minus the distance to the
       nearest face inside the box => both
-    not-rooted: your code omits the square root, so the result outside the box is a
-      squared distance. Take the square root
-    nearest-corner: your code returns the distance to the nearest corner. Use |p| -
-      half_extents instead, because a face or an edge can be nearer
+    not-rooted: outside the box, your code returns the squared distance. Take the square
+      root
+    nearest-corner: your code returns the distance to the nearest corner. Use `abs(p) -
+      half_extents` instead, because a face or an edge can be nearer
     largest-half: your code uses the largest half extent on every axis. Use the half
       extent of each axis instead
-    half-backwards: your code uses half_extents in reverse order. Its first entry
+    half-backwards: your code uses `half_extents` in reverse order. Its first entry
       belongs to x, the second to y and the third to z
-    in-the-plane: your code does not use z. Use all three coordinates
-    smallest-added: your code adds the smallest entry of |p| - half_extents, even where
-      it is positive. Add the largest entry, and only where it is negative
-    first-axis-added: your code uses only the x entry of |p| - half_extents in min(...,
-      0). Use the largest of the three entries
-    largest-with-max: your code uses max(..., 0) for the largest entry of |p| -
-      half_extents. Use min(..., 0), which is 0 outside the box and negative inside
-    sum-inside: inside the box, your code adds the three face distances. Return minus
-      the smallest of these distances instead
-    mean-inside: inside the box, your code returns the mean of the three face distances.
-      Return minus the smallest of these distances instead
+    in-the-plane: your code omits the z coordinate. Use all three coordinates
+    smallest-added: your code adds the smallest entry of `abs(p) - half_extents`, even
+      if this entry is positive. Add the largest entry, and only if this entry is
+      negative
+    first-axis-added: your code uses only the x entry of `abs(p) - half_extents` in
+      `min(..., 0)`. Use the largest of the three entries
+    largest-with-max: your code uses `max(..., 0)` for the largest entry of `abs(p) -
+      half_extents`. Use `min(..., 0)` instead, which is 0 outside the box and negative
+      inside
+    sum-inside: inside the box, your code returns minus the sum of the three distances
+      to the faces. Return minus the smallest of these distances instead
+    mean-inside: inside the box, your code returns minus the mean of the three distances
+      to the faces. Return minus the smallest of these distances instead
     one-number-inside: inside the box, your code always returns -1. Return minus the
       distance to the nearest face instead
     least-half-inside: inside the box, your code always returns minus the smallest half
       extent, which is correct only at the centre. Return minus the distance to the
       nearest face
     smallest-part-inside: inside the box, your code returns minus the smallest entry of
-      |p|. Return minus the smallest entry of half_extents - |p|, the distance to the
-      nearest face
+      `abs(p)`. Return minus the smallest entry of `half_extents - abs(p)`, which is the
+      distance to the nearest face
     upper-faces-inside: inside the box, your code uses only the faces on the positive
-      side. Use half_extents - |p|, because the opposite face can be nearer
-    lengthwise: your code measures the distance along the line to the centre. Use |p| -
-      half_extents, because the shortest distance to a face is perpendicular to the face
-    size-of-the-difference: your code uses |p - half_extents|. Use |p| - half_extents
-      instead, which is the excess beyond a face
-    cut-at-one: your code limits the excess beyond a face to 1. Omit this limit
-    corner-or-face: near an edge, your code returns the larger of the two excesses.
-      Return the norm of both excesses instead
-    two-of-three: near a corner, your code uses only the two largest excesses. Use all
-      three
-    first-two-only: if the point lies beyond a z face, your code returns only the
-      largest excess. Take the norm of all positive excesses
-    mean-square: your code takes the root of the mean of the squares. Take the root of
-      the sum of the squares instead
-    smallest-taken-off: your code subtracts the smallest absolute value of |p| -
-      half_extents, even outside the box. Subtract this value only inside the box
-    edges-negative: near an edge or a corner, your result has the wrong sign. The
-      distance should be positive outside the box
-    cut-at-both: your code returns the norm of the point that results from clamping p to
-      the box. Outside the box, return the distance between p and the clamped point
+      side. Use `half_extents - abs(p)`, because the opposite face can be nearer
+    lengthwise: your code measures the distance along the line from p to the centre. Use
+      `abs(p) - half_extents` instead, because the shortest distance to a face is
+      perpendicular to it
+    size-of-the-difference: your code uses `abs(p - half_extents)`. Use `abs(p) -
+      half_extents` instead, which is the distance beyond each pair of faces
+    cut-at-one: your code clamps the entries of `abs(p) - half_extents` at 1. Omit this
+      clamp, because the distance can be larger than 1 m
+    corner-or-face: near an edge, your code returns the larger of the two positive
+      entries of `abs(p) - half_extents`. Return the norm of both entries instead
+    two-of-three: near a corner, your code uses only the two largest entries of `abs(p)
+      - half_extents`. Use all three entries
+    first-two-only: your code returns only the largest entry of `abs(p) - half_extents`
+      if the point lies beyond a z face. Return the norm of the positive entries instead
+    mean-square: outside the box, your code divides the sum of the squares by 3 before
+      it takes the root. Omit this division
+    smallest-taken-off: your code subtracts the smallest absolute entry of `abs(p) -
+      half_extents`, even outside the box. Subtract this entry only inside the box
+    edges-negative: near an edge or a corner, your code returns a negative distance
+      outside the box. The signed distance should be positive there
+    cut-at-both: your code clamps p to the box and returns the norm of the clamped
+      point. Outside the box, return the distance from p to the clamped point instead
     """
     beyond = np.abs(p) - half_extents
     out = np.maximum(beyond, 0.0)

@@ -129,10 +129,10 @@ def golden(f, n, keep=0.618, wrong=False):
 def _(a0, a1, r, T_world_box, half_extents):
     """ends-only: your code tests only the ends of the axis. Minimise `box_sdf` along
       the axis, because the nearest point can lie between the ends
-    one-end-only: your result is always the distance of the end a1. Does your search
-      always keep the upper part of the interval?
-    one-end-only 2: your result is always the distance of the end a0. Does your search
-      always keep the lower part of the interval?
+    one-end-only: your code always returns the distance at the end `a1`. Does your
+      search always keep the upper part of the interval?
+    one-end-only 2: your code always returns the distance at the end `a0`. Does your
+      search always keep the lower part of the interval?
     middle-only: your code tests only the midpoint of the axis. Minimise `box_sdf` along
       the axis, because the nearest point can be anywhere on it
     five-points: your code tests only some points of the axis. Minimise `box_sdf` along
@@ -148,70 +148,71 @@ def _(a0, a1, r, T_world_box, half_extents):
     nearest-to-the-centre: your code uses the point of the axis nearest to the centre of
       the box. Minimise `box_sdf` along the axis, because another point can be nearer to
       a face
-    world-axes: your code translates the ends to the box, but it does not rotate them
-      into the box frame. Use R^T (x - t)
-    turned-the-other-way: your code multiplies the ends by R. Use R^T to express them in
-      the box frame instead
-    pose-not-inverted: your code applies T_world_box, which maps from the box frame to
-      the world frame. Apply its inverse
+    world-axes: your code subtracts the position of the box from the ends, but it does
+      not rotate them. Use R^T (x - t) to express each end x in the box frame
+    turned-the-other-way: your code multiplies the ends by R. Multiply them by R^T
+      instead, which rotates from the world frame to the box frame
+    pose-not-inverted: your code applies `T_world_box`, which maps from the box frame to
+      the world frame. Apply the inverse of `T_world_box` instead
     place-forgotten: your code rotates the ends but does not translate them. Subtract
       the position of the box before the rotation
     turned-then-moved: your code subtracts the position of the box after the rotation.
-      Subtract it first: R^T (x - t)
-    t-added: your code adds the position of the box. Subtract it instead: R^T (x - t)
+      Subtract it before the rotation, as in R^T (x - t)
+    t-added: your code adds the position of the box to the ends. Subtract it instead, as
+      in R^T (x - t)
     radius-forgotten: your code omits the radius, so the result is the distance from the
       axis to the box. Subtract r
     radius-added: your code adds the radius. Subtract the radius instead
-    radius-to-the-box: your code enlarges the box by the radius, which keeps its corners
-      sharp. Subtract the radius from the distance instead
-    radius-to-the-box 2: your code enlarges the box by the radius, which keeps its
-      corners sharp. Subtract the radius from the distance instead
-    way-not-turned: your code expresses the start of the axis in the box frame, but not
-      its direction. Multiply a1 - a0 by R^T
+    radius-to-the-box: your code enlarges the box by the radius. Subtract the radius
+      from the distance instead, because the enlarged box has sharp corners
+    radius-to-the-box 2: your code enlarges the box by the radius. Subtract the radius
+      from the distance instead, because the enlarged box has sharp corners
+    way-not-turned: your code rotates the start of the axis into the box frame, but not
+      the direction of the axis. Multiply `a1 - a0` by R^T
     wrong-half-kept: your search keeps the wrong part of the interval, so it finds the
       farthest point of the axis. Keep the part with the smaller value of `box_sdf`
     wrong-half-kept 2: your search keeps the wrong part of the interval, so it finds the
       farthest point of the axis. Keep the part with the smaller value of `box_sdf`
     bounding-sphere: your code treats the box as a sphere. Compare each coordinate with
-      its own half extent
+      the half extent along its own axis
     ends-left-out: your search never tests the ends of the axis. Start with the whole
       interval [0, 1]
-    never-negative: your code returns 0 for shapes that overlap. Return the negative
-      value, because their signed distance is negative
-    sign: your result has the wrong sign. The distance should be positive for shapes
-      that do not overlap
-    outside-only: for an axis that enters the box, your code replaces the negative value
-      of `box_sdf` by 0. Keep the negative value, then subtract r
-    as-a-line: your search goes beyond the ends of the axis. The parameter s should stay
-      in [0, 1]
-    way-moved: your code also subtracts t from the direction of the axis. Omit this
-      step, because a direction is rotated but not translated
-    way-moved 2: your direction of the axis runs from the centre of the box to a1. It
-      should run from a0 to a1
-    way-of-length-1: your code normalises the direction of the axis, although the
-      parameter runs from 0 to 1. Use a1 - a0 itself
-    not-into-the-box: your ends stay in the world frame. Express them in the box frame
-      with R^T (x - t)
-    radius-off-the-box: your code reduces the box by the radius. Subtract the radius
+    never-negative: your code returns 0 for shapes that overlap. The signed distance
+      should be negative for such shapes
+    sign: your code negates the signed distance. It should be positive for shapes that
+      do not overlap
+    outside-only: your code replaces the negative value of `box_sdf` by 0 if the axis
+      enters the box. Keep the negative value, and then subtract r
+    as-a-line: your search goes beyond the ends of the axis. Keep the parameter s in [0,
+      1]
+    way-moved: your code also subtracts the position of the box from the direction of
+      the axis. Omit this subtraction, because a direction is rotated but not translated
+    way-moved 2: your code uses the vector from the centre of the box to `a1` as the
+      direction of the axis. Use `a1 - a0` instead
+    way-of-length-1: your code normalises the direction of the axis. Use `a1 - a0`
+      itself, because the parameter runs from 0 to 1
+    not-into-the-box: your code leaves the ends in the world frame. Use R^T (x - t) to
+      express each end x in the box frame
+    radius-off-the-box: your code shrinks the box by the radius. Subtract the radius
       from the distance instead
-    size-of-the-depth: your code takes the absolute value of `box_sdf` for an axis
+    size-of-the-depth: your code takes the absolute value of `box_sdf` if the axis is
       inside the box. Keep the negative value
-    size-of-the-distance: your code takes the absolute value of the result. The distance
-      should be negative for shapes that overlap
-    radius-off-the-box 2: your code reduces the box by the radius. Subtract the radius
+    size-of-the-distance: your code takes the absolute value of the distance. The signed
+      distance should be negative for shapes that overlap
+    radius-off-the-box 2: your code shrinks the box by the radius. Subtract the radius
       from the distance instead
     largest-half: your code uses the largest half extent on every axis. Use the half
       extent of each axis instead
     largest-half 2: your code uses the largest half extent on every axis. Use the half
       extent of each axis instead
-    sides-exchanged: your code swaps the x and y entries of half_extents. The first
+    sides-exchanged: your code swaps the x and y entries of `half_extents`. The first
       entry belongs to x
-    sides-exchanged 2: your code swaps the x and y entries of half_extents. The first
+    sides-exchanged 2: your code swaps the x and y entries of `half_extents`. The first
       entry belongs to x
     box-around-it: your code replaces the rotated box by its axis-aligned bounding box.
       Express the ends in the box frame instead
-    half-turned: your code rotates half_extents, which contains lengths and not a
-      vector. Rotate the ends of the axis into the box frame instead
+    half-turned: your code rotates `half_extents`, although its entries are lengths and
+      not components of a vector. Rotate the ends of the axis into the box frame instead
     mean-along: your code returns the mean of the distances along the axis. Return the
       smallest distance instead
     edges-only: your code computes the distance to the edges of the box. Use `box_sdf`,
@@ -220,18 +221,18 @@ def _(a0, a1, r, T_world_box, half_extents):
       plane of a face. Minimise `box_sdf` along the axis, because another point can be
       nearer
     point-to-box-in-turn: your code alternates between the nearest point of the box and
-      the nearest point of the axis, and it stops after too few steps. Minimise
-      `box_sdf` along the axis instead
-    one-section: your search makes only one step, after which 0.618 of the axis remains.
-      Repeat the step
+      the nearest point of the axis, but it stops too early. Minimise `box_sdf` along
+      the axis instead
+    one-section: your search makes only one step, which leaves 0.618 of the axis. Repeat
+      the step until the interval is short enough
     radius-times-the-length: your code multiplies the radius by the length of the axis.
       Subtract r itself
     share-returned: your code returns the parameter s of the nearest point. Return the
       distance at this point instead
-    five-sections: your search stops too early. Each step leaves 0.618 of the interval,
-      so make more steps
-    five-sections 2: your search stops too early. Each step leaves 0.618 of the
-      interval, so make more steps
+    five-sections: your search stops too early. Make more steps, because each step still
+      leaves 0.618 of the interval
+    five-sections 2: your search stops too early. Make more steps, because each step
+      still leaves 0.618 of the interval
     """
     R = T_world_box[:3, :3]
     t = T_world_box[:3, 3]

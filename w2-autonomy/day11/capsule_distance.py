@@ -85,7 +85,7 @@ def _(a0, a1, ra, b0, b1, rb):
       radii
     one-radius 2: your code subtracts only the radius of the second capsule. Subtract
       both radii
-    as-diameters: your code subtracts half of each radius. Subtract ra and rb
+    as-diameters: your code subtracts half of each radius. Subtract `ra` and `rb`
       themselves, because they are radii and not diameters
     twice-the-radii: your code subtracts twice each radius. Subtract each radius once
     radii-differ: your code subtracts the difference of the radii. Subtract the sum of
@@ -95,69 +95,66 @@ def _(a0, a1, ra, b0, b1, rb):
     larger-radius: your code subtracts only the larger radius. Subtract both radii
     radii-multiplied: your code subtracts the product of the radii. Subtract the sum of
       the radii instead
-    never-negative: your code returns 0 for capsules that overlap. Return the negative
-      value, because their signed distance is negative
-    sign-lost: your code takes the absolute value of the result. The distance should be
-      negative for capsules that overlap
+    never-negative: your code returns 0 for capsules that overlap. The signed distance
+      should be negative for such capsules
+    sign-lost: your code takes the absolute value of the distance. The signed distance
+      should be negative for capsules that overlap
     squared: your code omits the square root, so it uses the squared distance between
       the axes. Take the square root before you subtract the radii
     squared 2: your code subtracts the squared sum of the radii from the squared
-      distance. Subtract the radii from the distance itself
-    sign: your result has the wrong sign. The distance should be positive for capsules
-      that do not overlap
+      distance between the axes. Subtract the radii from the distance itself
+    sign: your code negates the signed distance. It should be positive for capsules that
+      do not overlap
     of-middles: your code uses the midpoints of the axes as the closest points. Use the
       points of task 11.1, because the closest points can be anywhere on the axes
     of-starts: your code uses the starts of the axes as the closest points. Use the
       points of task 11.1, because the closest points can be anywhere on the axes
     of-end-pairs: your code uses the nearest pair of ends as the closest points. Use the
       points of task 11.1, because the closest points can lie between the ends
-    largest-part: your code uses the largest component of p - o as the distance of the
-      closest points p and o. Use the norm of p - o instead
+    largest-part: your code uses the largest absolute component of p - o as the distance
+      between p and o. Use the norm of p - o instead
     sum-of-parts: your code uses the sum of the absolute components of p - o as the
-      distance of the closest points p and o. Use the norm of p - o instead
-    in-the-plane 2: your code does not use x in the distance. Use all three coordinates
-    in-the-plane 3: your code does not use y in the distance. Use all three coordinates
+      distance between p and o. Use the norm of p - o instead
+    in-the-plane 2: your code omits the x component of p - o. Use all three components
+    in-the-plane 3: your code omits the y component of p - o. Use all three components
     product-of-radii: your code subtracts the square root of the product of the radii.
       Subtract the sum of the radii instead
     squares-of-radii: your code subtracts the squares of the radii. Subtract the radii
       themselves instead
-    over-the-radii: your code divides the distance by the sum of the radii. Subtract the
-      sum instead
+    over-the-radii: your code divides the distance between the axes by the sum of the
+      radii. Subtract the sum instead
     ends-and-middles: your code tests only the ends and the midpoints of both axes. Use
       the points of task 11.1, because the closest points can be anywhere on the axes
-    same-share: your code uses the same parameter for the points of both axes. Use the
-      points of task 11.1, because each closest point has its own parameter
+    same-share: your code uses the same parameter on both axes. Use the points of task
+      11.1, because each closest point has its own parameter
     twice-the-larger: your code subtracts the larger radius twice. Subtract the radius
       of each capsule once
-    radii-as-sides: your code combines the radii as sqrt(ra^2 + rb^2). Use their sum,
-      because both radii lie along the same line
-    root-of-squares: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
-      tangent. The distance is |p - o| - (ra + rb)
-    root-of-squares 2: your code returns sqrt(|p - o|^2 - (ra + rb)^2), the length of a
-      tangent. The distance is |p - o| - (ra + rb)
-    least-part: your code uses the smallest component of p - o as the distance of the
-      closest points p and o. Use the norm of p - o instead
-    parts-with-signs: your code uses the sum of the components of p - o, with their
-      signs, as the distance of the closest points p and o. Use the norm of p - o
-      instead
-    parts-with-signs 2: your code uses the sum of the components of p - o, with their
-      signs, as the distance of the closest points p and o. Use the norm of p - o
-      instead
-    mean-square: your code takes the root of the mean of the squares. Take the root of
-      the sum of the squares instead
-    lengths-differ: your code uses the difference of the norms of the closest points p
-      and o. Use the norm of p - o instead
-    cut-once: your code clamps the distance at 0 between the subtractions of ra and rb.
-      Omit this clamp, because the distance may become negative
+    radii-as-sides: your code subtracts `sqrt(ra**2 + rb**2)`. Subtract `ra + rb`
+      instead, because the two radii lie on the same line
+    root-of-squares: your code returns `sqrt(d**2 - (ra + rb)**2)`, where d is the
+      distance between the axes. Return `d - (ra + rb)` instead
+    root-of-squares 2: your code returns `sqrt(d**2 - (ra + rb)**2)`, where d is the
+      distance between the axes. Return `d - (ra + rb)` instead
+    least-part: your code uses the smallest absolute component of p - o as the distance
+      between p and o. Use the norm of p - o instead
+    parts-with-signs: your code adds the components of p - o with their signs. Use the
+      norm of p - o instead
+    parts-with-signs 2: your code adds the components of p - o with their signs. Use the
+      norm of p - o instead
+    mean-square: your code divides the sum of the squares by 3 before it takes the root.
+      Omit this division
+    lengths-differ: your code uses the difference of the norms of p and o as their
+      distance. Use the norm of p - o instead
+    cut-once: your code subtracts `ra`, clamps the result at 0 and then subtracts `rb`.
+      Omit the clamp, because the distance may become negative
     one-number-inside: your code always returns -1 for capsules that overlap. Return the
       distance between the axes minus both radii
     one-number-inside 2: your code returns minus the smaller radius for capsules that
       overlap. Return the distance between the axes minus both radii
     axes-inside: your code returns minus the distance between the axes for capsules that
       overlap. Return the distance between the axes minus both radii
-    ends-only: your code assumes that one of the closest points is an end. Use the s and
-      t of the infinite lines if both lie in [0, 1], because both points can lie between
-      the ends
+    ends-only: your code assumes that one of the closest points is an end of an axis.
+      Use the points of task 11.1, because both points can lie between the ends
     ends-only 2: your code tests only the ends of the first axis. Use the points of task
       11.1, because the closest point of this axis can lie between the ends
     ends-only 3: your code tests only the ends of the second axis. Use the points of
@@ -170,13 +167,13 @@ def _(a0, a1, ra, b0, b1, rb):
       11.1, because the closest points can lie between the tested points
     sampled 4: your code tests only some points of each axis. Use the points of task
       11.1, because the closest points can lie between the tested points
-    lines: your code treats the axes as infinite lines. Clamp the closest points to the
-      axes
-    grown-axes: your code extends each axis by the radius at both ends and also
-      subtracts the radius. Do not extend the axes, and subtract the radius only
-    starts-and-ends: your code uses the segments from a0 to b0 and from a1 to b1. The
-      axes run from a0 to a1 and from b0 to b1
-    in-the-plane: your code does not use z in the distance. Use all three coordinates
+    lines: your code treats the axes as infinite lines. Use the points of task 11.1,
+      because the axes are segments
+    grown-axes: your code extends each axis by its radius at both ends. Omit this
+      extension, because subtracting the radii already includes the round ends
+    starts-and-ends: your code uses the segments from `a0` to `b0` and from `a1` to
+      `b1`. Use the axes, from `a0` to `a1` and from `b0` to `b1`
+    in-the-plane: your code omits the z component of p - o. Use all three components
     """
     p, o = closest_points_segments(a0, a1, b0, b1)
     axes = np.linalg.norm(p - o)

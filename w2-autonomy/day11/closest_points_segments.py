@@ -17,35 +17,36 @@ row = Row(
         HeldOut(
             "parallel-not-handled",
             "Your result is wrong for some parallel segments. For parallel segments, "
-            "a c - b b is 0, so the formula for s gives 0 / 0. Start with any s, "
-            "compute t from s and clamp t, then compute s from t and clamp s.",
+            "a c - b b is 0, so the formula for s gives 0 / 0. Start with any s in "
+            "[0, 1] instead. Then compute and clamp t, and finally compute and clamp "
+            "s.",
             lambda rng: pairs.arrays(pairs.PARALLEL),
         ),
         HeldOut(
             "side-by-side-not-handled",
-            "Your result is wrong for parallel segments side by side. They have many "
-            "closest pairs, so return any one of them.",
+            "Your result is wrong for parallel segments that lie side by side. They "
+            "have many closest pairs, so return any one of these pairs.",
             lambda rng: pairs.arrays(pairs.ALONGSIDE),
         ),
         HeldOut(
             "nearly-parallel",
             "Your result is wrong for segments that are half a degree from parallel. "
-            "They have a single closest pair. Does your code compare a c - b b with "
-            "too large a fraction of a c?",
+            "Such segments have a single closest pair. Does your code compare a c - "
+            "b b with too large a fraction of a c?",
             lambda rng: pairs.arrays(pairs.NEARLY_PARALLEL),
         ),
         HeldOut(
             "point-not-handled",
             "Your result is wrong if a segment is a point, that is, if its length is "
-            "0. Use any value for the parameter of this segment instead of 0 / 0, and "
+            "0. Use any parameter in [0, 1] for this segment instead of 0 / 0, and "
             "clamp the parameter of the other segment.",
             lambda rng: pairs.arrays(pairs.POINTS),
         ),
         HeldOut(
             "size-absolute",
             "Your result is correct for segments of about 1 m, but not for segments "
-            "of a few millimetres. The unit of a c - b b is m^4, so compare it with a "
-            "fraction of a c and not with a constant.",
+            "of a few millimetres. Compare a c - b b with a fraction of a c instead of "
+            "a constant, because the unit of a c - b b is m^4.",
             lambda rng: [
                 tuple(0.002 * x for x in pairs.segments(rng, one))
                 for one in ("inside", "an end", "inside", "an end")
@@ -73,107 +74,110 @@ def _(rng):
 def _(a0, a1, b0, b1):
     """not-clamped: your code does not clamp s and t. Clamp them to [0, 1], because
       otherwise the points can lie beyond the ends of the segments
-    clamped-apart: your code clamps s and t independently. If you clamp one of them, the
-      optimal value of the other changes, so compute the other one again
-    s-not-again: your code does not recompute s after it clamps t. Compute s again,
-      because the optimal s depends on t
-    s-not-again 2: your code does not recompute t after it clamps s. Compute t again,
+    clamped-apart: your code clamps s and t independently. If one parameter is clamped,
+      the optimal value of the other changes, so recompute the other parameter
+    s-not-again: your code does not recompute s after it clamps t. Recompute s, because
+      the optimal s depends on t
+    s-not-again 2: your code does not recompute t after it clamps s. Recompute t,
       because the optimal t depends on s
-    s-not-again 3: your code does not recompute t after the last clamp of s. Compute t
-      again, because the optimal t depends on s
-    t-not-cut: your code never clamps t. Clamp it to [0, 1], because otherwise the point
-      of the second segment can lie beyond an end
-    s-not-cut: your code never clamps s. Clamp it to [0, 1], because otherwise the point
-      of the first segment can lie beyond an end
-    cut-below-only: your code clamps s and t only at 0. Clamp them at 1 too, because
-      otherwise the points can lie beyond the ends
-    cut-above-only: your code clamps s and t only at 1. Clamp them at 0 too, because
-      otherwise the points can lie before the start points
-    ends-only: your code assumes that one of the closest points is an end. Use the s and
-      t of the infinite lines if both lie in [0, 1], because both points can lie between
-      the ends
-    end-pairs: your code returns the nearest pair of ends. Compute s and t instead,
-      because the closest points can lie between the ends
-    end-pairs 2: your code uses the end of the first segment that is nearest to the
+    s-not-again 3: your code does not recompute t after the last clamp of s. Recompute
+      t, because the optimal t depends on s
+    t-not-cut: your code does not clamp t. Clamp t to [0, 1], because otherwise the
+      second point can lie beyond an end of its segment
+    s-not-cut: your code does not clamp s. Clamp s to [0, 1], because otherwise the
+      first point can lie beyond an end of its segment
+    cut-below-only: your code clamps s and t at 0, but not at 1. Clamp both to [0, 1],
+      because otherwise the points can lie beyond the ends
+    cut-above-only: your code clamps s and t at 1, but not at 0. Clamp both to [0, 1],
+      because otherwise the points can lie before the starts
+    ends-only: your code assumes that one of the closest points is an end of a segment.
+      If the s and t of the infinite lines both lie in [0, 1], use these values instead
+    end-pairs: your code returns the two ends that are nearest to each other. Compute s
+      and t instead, because the closest points can lie between the ends
+    end-pairs 2: your code returns the end of the first segment that is nearest to the
       second segment. Compute s instead, because the closest point can lie between the
       ends
-    w-sign: your vector w has the wrong sign. It should run from b0 to a0, w = a0 - b0
-    d-and-e-swapped: your code swaps d and e. The products are d = u . w and e = v . w
-    numerator-sign: your numerator for s has the wrong sign. The parameter s should be
-      (b e - c d) / (a c - b b)
-    b-sign: your b has the wrong sign. At the minimum, a s - b t + d = 0 and b s - c t +
-      e = 0
-    across-plus: your denominator is a c + b b. It should be a c - b b, which is 0 for
-      parallel segments
-    across-of-lengths: your denominator is a c, which is correct only for perpendicular
-      segments. It should be a c - b b
+    w-sign: your code uses `b0 - a0` as w. Use `w = a0 - b0`, the vector from the start
+      of the second segment to the start of the first
+    d-and-e-swapped: your code swaps d and e. Use d = u . w and e = v . w
+    numerator-sign: your code negates the s of the infinite lines. Use s = (b e - c d) /
+      (a c - b b)
+    b-sign: your code negates b. Use b = u . v, so that a s - b t + d = 0 and b s - c t
+      + e = 0 at the minimum
+    across-plus: your code divides by a c + b b. Divide by a c - b b instead, which is 0
+      for parallel segments
+    across-of-lengths: your code divides by a c, which is correct only for perpendicular
+      segments. Divide by a c - b b instead
     swapped-to-s: your code swaps s and t. The parameter s belongs to the first segment,
       and t to the second
-    points-swapped: your point of the second segment comes first. Return the point of
-      the first segment first
+    points-swapped: your code returns the point of the second segment first. Return the
+      point of the first segment first
     middles: your code returns the midpoints of the segments. Compute s and t instead,
       because the closest points can be anywhere on the segments
     starts: your code returns the start points of the segments. Compute s and t instead,
       because the closest points can be anywhere on the segments
     same-share: your code sets t equal to s. Compute t separately, because each segment
       has its own parameter
-    shares: your code returns s u and t v. Add the start points a0 and b0
-    beyond-the-ends: your code measures the two points from a1 and b1. Measure them from
-      a0 and b0, where s and t are 0
-    t-from-the-end: your code measures t from b1. Measure t from b0 instead
-    s-from-the-end: your code measures s from a1. Measure s from a0 instead
-    unit-directions: your code normalises u and v, so s and t are lengths in metres and
-      cannot be clamped to [0, 1]. Use u and v themselves
+    shares: your code returns s u and t v, which are only displacements from the starts.
+      Add `a0` to s u, and `b0` to t v
+    beyond-the-ends: your code adds s u to `a1` and t v to `b1`. Add s u to `a0` and t v
+      to `b0` instead
+    t-from-the-end: your code subtracts t v from `b1`. Add t v to `b0` instead, because
+      t is 0 at the start of the segment
+    s-from-the-end: your code subtracts s u from `a1`. Add s u to `a0` instead, because
+      s is 0 at the start of the segment
+    unit-directions: your code normalises u and v. Use u and v themselves, because
+      otherwise s and t are lengths in metres and not fractions
     nearest-to-the-middle: your code returns the midpoint of the second segment and the
-      nearest point of the first. Compute t as well, because the closest point can be
-      anywhere on the second segment
+      nearest point of the first segment. Compute t as well, because the closest point
+      can be anywhere on the second segment
     sampled: your code tests only some points of each segment. Compute s and t instead,
       because the closest points can lie between the tested points
     sampled 2: your code tests only some points of each segment. Compute s and t
       instead, because the closest points can lie between the tested points
     sampled 3: your code tests only some points of each segment. Compute s and t
       instead, because the closest points can lie between the tested points
-    ends-where-cut: if the closest points of the infinite lines are not both on the
-      segments, your code returns the nearest pair of ends. Clamp s instead, and compute
-      t again
-    ends-where-cut 2: if the closest points of the infinite lines are not both on the
-      segments, your code tests only the ends of the first segment. Test the ends of the
-      second segment too
-    ends-where-cut 3: if the closest points of the infinite lines are not both on the
-      segments, your code tests only the ends of the second segment. Test the ends of
-      the first segment too
-    start-where-cut: if the closest points of the infinite lines are not both on the
-      segments, your code sets s to 0. Clamp s instead
-    start-where-cut 2: your code sets an s outside [0, 1] to 0. Clamp s, so that a value
-      above 1 becomes 1
-    start-where-cut 3: your code sets an s outside [0, 1] to 0.5. Clamp s to [0, 1]
+    ends-where-cut: your code returns the two nearest ends if the closest points of the
+      lines are not both on the segments. Clamp s instead, and then recompute t and s
+      with a clamp after each
+    ends-where-cut 2: your code tests only the ends of the first segment if the closest
+      points of the lines are not both on the segments. Test the ends of the second
+      segment too
+    ends-where-cut 3: your code tests only the ends of the second segment if the closest
+      points of the lines are not both on the segments. Test the ends of the first
+      segment too
+    start-where-cut: your code sets s to 0 if the closest points of the lines are not
+      both on the segments. Clamp s to [0, 1] instead
+    start-where-cut 2: your code sets s to 0 if s is outside [0, 1]. Clamp s instead, so
+      that a value above 1 becomes 1
+    start-where-cut 3: your code sets s to 0.5 if s is outside [0, 1]. Clamp s to [0, 1]
       instead
-    start-where-cut 4: your code sets s and t outside [0, 1] to 0. Clamp them, so that a
-      value above 1 becomes 1
+    start-where-cut 4: your code sets each of s and t to 0 if it is outside [0, 1].
+      Clamp both instead, so that a value above 1 becomes 1
     one-end-cut: your code recomputes s if t is below 0, but not if t is above 1.
       Recompute s in both cases
     one-end-cut 2: your code recomputes s if t is above 1, but not if t is below 0.
       Recompute s in both cases
-    t-one-end-cut: your code clamps t only at 1. Clamp it at 0 too, because otherwise
-      the point of the second segment can lie before b0
-    t-one-end-cut 2: your code clamps t only at 0. Clamp it at 1 too, because otherwise
-      the point of the second segment can lie beyond b1
+    t-one-end-cut: your code clamps t at 1, but not at 0. Clamp t to [0, 1], because
+      otherwise the second point can lie before `b0`
+    t-one-end-cut 2: your code clamps t at 0, but not at 1. Clamp t to [0, 1], because
+      otherwise the second point can lie beyond `b1`
     a-start-alone: your code returns the start of the first segment and the nearest
-      point of the second. Compute s as well, because the closest point can be anywhere
-      on the first segment
+      point of the second segment. Compute s as well, because the closest point can be
+      anywhere on the first segment
     a-middle-alone: your code returns the midpoint of the first segment and the nearest
-      point of the second. Compute s as well, because the closest point can be anywhere
-      on the first segment
+      point of the second segment. Compute s as well, because the closest point can be
+      anywhere on the first segment
     farthest: your code selects the farthest of the candidate pairs. Select the nearest
       pair instead
-    one-round: your code starts with s = 0 and then computes t and s only once, which
-      does not reach the minimum. Start with the s of the infinite lines, clamped to [0,
-      1]
-    one-round 2: your code starts with s = 0.5 and then computes t and s only once,
-      which does not reach the minimum. Start with the s of the infinite lines, clamped
+    one-round: your code starts with s = 0 and computes t and s only once. This does not
+      always reach the minimum, so start with the s of the infinite lines, clamped to
+      [0, 1]
+    one-round 2: your code starts with s = 0.5 and computes t and s only once. This does
+      not always reach the minimum, so start with the s of the infinite lines, clamped
       to [0, 1]
-    difference: both of your rows contain the difference of the two points. Return the
-      points themselves instead
+    difference: your code returns the difference of the two points in both rows. Return
+      the two points instead
     """
     u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
     right = thrice(a, b, c, d, e)
@@ -365,7 +369,7 @@ def least_angle(share):
 
 
 ALIKE = (
-    "your code treats segments that differ by a few degrees as parallel. Use a much "
+    "your code treats segments at an angle of a few degrees as parallel. Use a much "
     "smaller limit for a c - b b, because such segments have a single closest pair"
 )
 SELDOM = "hardly a pair in a run is so nearly parallel"
@@ -390,8 +394,8 @@ def rounds(n, start):
 
 
 FEW = (
-    "your code alternates between t and s, but it stops too early. Start with the s "
-    "of the infinite lines, clamped to [0, 1], so that one iteration is enough"
+    "your code computes t and s alternately, but it stops too early. Start with the s "
+    "of the infinite lines, clamped to [0, 1], because one iteration is then enough"
 )
 for n in (2, 3, 4, 5, 10):
     for start in (0.0, 0.5):

@@ -113,83 +113,94 @@ def _(rng):
     hidden={"still-before-touching": "in a run nothing is still where it touches"}
 )
 def _(s, distance, delta_q, radii):
-    """no-bound: your code adds the distance in metres to s. First divide it by the
-      bound on the motion per unit of s
-    signs-kept: your code adds the entries of delta_q with their signs, so opposite
+    """no-bound: your code adds the distance in metres to s. Divide the distance first
+      by the bound on the motion per unit of s
+    signs-kept: your code adds the entries of `delta_q` with their signs, so opposite
       rotations cancel. Take the absolute value of each entry first
-    signs-kept 2: your code takes the absolute value after the sum, so opposite
-      rotations cancel. Take the absolute value of each entry of delta_q first
-    fastest-joint-only: your code uses only the largest product |delta_q_i| * radii_i.
-      Add the products of all joints, because their motions add up
-    fastest-joint-only 2: your bound is the largest |delta_q_i| times the largest
-      radius. Add |delta_q_i| * radii_i over all joints, because their motions add up
-    norm-of-dq: your bound is the norm of delta_q times the largest radius, which is not
-      an upper bound. Add |delta_q_i| * radii_i over all joints
-    norm-of-products: your code takes the norm of the products |delta_q_i| * radii_i.
-      Take their sum instead
-    norm-of-products 2: your code multiplies the norm of delta_q by the norm of radii.
-      Add the products |delta_q_i| * radii_i instead
+    signs-kept 2: your code takes the absolute value of the whole sum, so opposite
+      rotations cancel. Take the absolute value of each entry of `delta_q` first
+    fastest-joint-only: your code uses only the largest product `abs(delta_q[i]) *
+      radii[i]`. Add the products of all joints, because the motions of all joints add
+      up
+    fastest-joint-only 2: your code multiplies the largest `abs(delta_q[i])` by the
+      largest radius. Add `abs(delta_q[i]) * radii[i]` over all joints, because their
+      motions add up
+    norm-of-dq: your code multiplies the norm of `delta_q` by the largest radius, which
+      is not an upper bound. Add `abs(delta_q[i]) * radii[i]` over all joints instead
+    norm-of-products: your code takes the norm of the products `abs(delta_q[i]) *
+      radii[i]`. Take the sum of the products instead
+    norm-of-products 2: your code multiplies the norm of `delta_q` by the norm of
+      `radii`. Add the products `abs(delta_q[i]) * radii[i]` instead
     largest-reach: your code uses the largest radius for every joint, so its steps are
       shorter than necessary. Use the radius of each joint
-    reach-forgotten: your code omits the radii. Multiply each |delta_q_i| by radii_i,
-      which bounds the motion in metres
-    dq-forgotten: your code omits delta_q in the bound. A longer motion moves the arm
-      further, so the bound should grow with delta_q
-    of-what-is-left: your code multiplies the step by 1 - s. The argument delta_q
-      belongs to the whole motion, so omit this factor
-    of-what-is-left 2: your code divides the step by 1 - s. The argument delta_q belongs
-      to the whole motion, so omit this division
-    half-a-step: your step is half as long as the bound allows. Use the whole step
-    twice-a-step: your step is twice as long as the bound allows, so the arm can hit the
-      obstacle. Divide the distance by the bound itself
+    reach-forgotten: your code omits `radii`. Multiply each `abs(delta_q[i])` by
+      `radii[i]`, because the product bounds the motion in metres
+    dq-forgotten: your code omits `delta_q` in the bound. The bound should grow with
+      `delta_q`, because a longer motion moves the arm further
+    of-what-is-left: your code multiplies the step by 1 - s. Omit this factor, because
+      `delta_q` belongs to the whole motion
+    of-what-is-left 2: your code divides the step by 1 - s. Omit this division, because
+      `delta_q` belongs to the whole motion
+    half-a-step: your code takes only half of the step that the bound allows. Use the
+      whole step
+    twice-a-step: your code takes twice the step that the bound allows, so the arm can
+      hit the obstacle. Divide the distance by the bound itself
     multiplied: your code multiplies the distance by the bound. Divide the distance by
       the bound, because a faster motion needs a shorter step
     s-forgotten: your code returns the step alone. Return s plus the step
-    not-capped: your result can exceed 1, the end of the motion. Clamp it at 1
-    standing-still: if no joint moves, your code divides by 0. Return 1, because the
-      rest of the motion is collision-free
-    standing-still 2: if no joint moves, your code returns s. Return 1, because the rest
+    not-capped: your code can return a value above 1, the end of the motion. Clamp the
+      result at 1
+    standing-still: your code divides by 0 if no joint moves. Return 1, because the rest
       of the motion is collision-free
-    goes-back-inside: if the arm is already in contact, your code returns a value below
-      s. Return s itself
-    goes-on-inside: if the arm is already in contact, your code returns a value above s.
+    standing-still 2: your code returns s if no joint moves. Return 1, because the rest
+      of the motion is collision-free
+    goes-back-inside: your code returns a value below s if the arm is already in
+      contact. Return s itself
+    goes-on-inside: your code returns a value above s if the arm is already in contact.
       Return s itself
-    stops-inside: if the arm is already in contact, your code returns 1. Return s itself
-    stops-inside 2: if the arm is already in contact, your code returns 0. Return s
+    stops-inside: your code returns 1 if the arm is already in contact. Return s itself
+    stops-inside 2: your code returns 0 if the arm is already in contact. Return s
       itself
-    still-before-touching: your code tests for a motion of 0 before it tests for
+    still-before-touching: your code tests whether the arm moves before it tests for
       contact. If the arm is in contact, return s even if no joint moves
-    reach-backwards: your code uses the radii in reverse order. The first radius belongs
+    reach-backwards: your code uses `radii` in reverse order. The first radius belongs
       to joint 1
-    reaches-summed: your code multiplies the sum of |delta_q| by the sum of the radii.
-      Multiply each |delta_q_i| by its own radius, and then add the products
-    reaches-summed 2: your code multiplies the largest |delta_q| by the sum of the
-      radii. Multiply each |delta_q_i| by its own radius, and then add the products
-    reaches-summed 3: your code multiplies the norm of delta_q by the sum of the radii.
-      Multiply each |delta_q_i| by its own radius, and then add the products
-    one-direction: your code treats negative entries of delta_q as 0. Take absolute
-      values, because rotations in both directions move the arm
-    one-left-out: your code omits the last joint in the sum. Sum over all joints
-    one-left-out 2: your code omits the first joint in the sum. Sum over all joints
-    chord: your code uses the chord 2 sin(delta_q / 2). Use |delta_q|, because a point
-      moves along the arc, which is longer
-    mean-of-joints: your bound is the mean over the joints. Take the sum, because the
-      motions of all joints add up
-    step-capped: your code limits the step to 1. Limit the sum of s and the step,
-      because this sum can exceed 1
-    limit-of-the-whole: your code compares the distance with the bound on the whole
-      motion. Multiply the bound by 1 - s, because only this part of the motion remains
+    reaches-summed: your code multiplies the sum of `abs(delta_q)` by the sum of the
+      radii. Multiply each `abs(delta_q[i])` by its own radius, and then add the
+      products
+    reaches-summed 2: your code multiplies the largest `abs(delta_q[i])` by the sum of
+      the radii. Multiply each `abs(delta_q[i])` by its own radius, and then add the
+      products
+    reaches-summed 3: your code multiplies the norm of `delta_q` by the sum of the
+      radii. Multiply each `abs(delta_q[i])` by its own radius, and then add the
+      products
+    one-direction: your code treats negative entries of `delta_q` as 0. Take absolute
+      values instead, because rotations in both directions move the arm
+    one-left-out: your code omits the last joint in the sum. Add the products of all
+      joints
+    one-left-out 2: your code omits the first joint in the sum. Add the products of all
+      joints
+    chord: your code uses the chord `2 * sin(delta_q / 2)`. Use `abs(delta_q)` instead,
+      because a point moves along the arc, which is longer
+    mean-of-joints: your code uses the mean of the products over the joints as the
+      bound. Use the sum instead, because the motions of all joints add up
+    step-capped: your code clamps the step at 1. Clamp the sum of s and the step
+      instead, because this sum can exceed 1
+    limit-of-the-whole: your code returns 1 if the distance is at least the bound on the
+      whole motion. Multiply this bound by 1 - s, because only this part of the motion
+      remains
     step-capped 2: your code returns the smaller of 1 - s and the step. Return the
       smaller of 1 and s + step instead
-    max-for-min: your code uses max instead of min, so the result is never below 1.
+    max-for-min: your code uses `max` instead of `min`, so the result is never below 1.
       Return the smaller of 1 and s + step
     shares-summed: your code adds the steps that each joint alone would allow. Add the
-      products |delta_q_i| * radii_i first, and then divide the distance by this sum
+      products `abs(delta_q[i]) * radii[i]` first, and then divide the distance by this
+      sum
     careful: your code uses only a part of the step that the bound allows. Use the whole
       step
     careful 2: your code uses only a part of the step that the bound allows. Use the
       whole step
-    time: your code returns the number of steps, 1 / step. Return s + step instead
+    time: your code returns the number of steps instead of s. Return s + step
     """
     speed = np.abs(delta_q) @ radii
     inside = distance <= 0

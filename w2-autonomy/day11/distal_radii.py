@@ -57,67 +57,70 @@ def _(rng):
 
 @row.wrongs
 def _(link_lengths, link_radii):
-    """to-the-tip-only: your code uses only the last link for the bound. A point on an
-      earlier link can be farther away, so take the maximum over all distal links
+    """to-the-tip-only: your code uses only the last link for the bound. Take the
+      maximum over all distal links, because a point on an earlier link can be farther
+      away
     own-link-only: your code uses only the joint's own link for the bound. Take the
       maximum over the distal links too, because the joint also moves them
-    next-only: your code stops at the next link. Use the bound of the next joint instead
-      of the radius of the next link
-    from-the-base: your code measures from the base. Measure from joint i to its distal
-      links instead
-    offset-one-late: for joint i, your code uses link_lengths[i + 1]. The distance from
-      link i to the next link is link_lengths[i]
-    offset-of-the-last: your code adds the length of the last link. Omit it, because no
-      link follows the last one
-    offset-of-the-last 2: your code uses the length of the last link as a radius. Omit
-      it, because no link follows the last one
-    offset-to-its-own: your code also adds the link length to the joint's own link
-      radius. Add this length only for the distal links
-    far-forgotten: your code adds only the link lengths. Include the link radii
-    offsets-forgotten: your code omits the link lengths, so the result is the largest
-      link radius. Add the link lengths between the joint and the distal link
-    all-summed: your code adds the radii of all distal links. Only one point is the
-      farthest, so use only the radius of its link
-    largest-far: your code adds the largest link radius of the arm to the distance of
-      the last link. Add each radius to the distance of its own link, and then take the
+    next-only: your code uses the radius of the next link and ignores the links after
+      it. Use the bound of the next joint instead
+    from-the-base: your code measures the distances from the base. Measure them from
+      joint i to its distal links instead
+    offset-one-late: for joint i, your code uses `link_lengths[i + 1]`. Use
+      `link_lengths[i]` instead, the distance from link i to the next link
+    offset-of-the-last: your code adds the last entry of `link_lengths`. Omit this
+      entry, because no link follows the last link
+    offset-of-the-last 2: your code uses the last entry of `link_lengths` as a radius.
+      Omit this entry, because no link follows the last link
+    offset-to-its-own: your code adds the link length to the radius of the joint's own
+      link. Add this length only for the links after this link
+    far-forgotten: your code omits `link_radii`, so the bound contains only link
+      lengths. Add the radius of each link to the distance to its origin
+    offsets-forgotten: your code omits `link_lengths`, so the result is the largest link
+      radius. Add the lengths between the joint and the distal link
+    all-summed: your code adds the radii of all distal links. Use only one radius,
+      because only one point is the farthest
+    largest-far: your code adds the largest link radius of the arm to the distance to
+      the last link. Add each radius to the distance to its own link, and then take the
       maximum
     least: your code takes the minimum of the link radius and the sum of the link length
-      and the bound of the next joint. Take the maximum, because the bound must hold for
-      every distal point
-    not-in-a-row: your code adds the link length to the joint's own link radius. Add the
-      link length to the bound of the next joint, and take the maximum of this sum and
+      and the next joint's bound. Take the maximum instead, because the bound must hold
+      for every distal point
+    not-in-a-row: your code adds the link length to the radius of the joint's own link.
+      Add it to the bound of the next joint, and then take the maximum of the sum and
       the radius
-    euclid: your code combines the lengths as the root of a sum of squares. Use their
-      sum, because the lengths add up in the stretched arm
-    one-for-all: your code returns the largest result for every joint. Each joint should
+    euclid: your code takes the root of the sum of the squared lengths. Take the sum of
+      the lengths instead, which is the distance in the stretched arm
+    one-for-all: your code returns the largest bound for every joint. Each joint should
       have its own bound
-    backwards: your result is in reverse order. Its first entry should belong to joint 1
+    backwards: your code returns the bounds in reverse order. The first bound belongs to
+      joint 1
     sum-from-the-base: your code sums the link lengths from the base to the joint. Sum
       the link lengths from the joint to the distal link
     far-of-its-own: your code adds the radius of the joint's own link to the sum of all
-      distal link lengths. Add each radius to the distance of its own link, and then
+      distal link lengths. Add each radius to the distance to its own link, and then
       take the maximum
     far-of-its-own 2: your code adds the radius of the joint's own link to the sum of
-      all distal link lengths. Add each radius to the distance of its own link, and then
+      all distal link lengths. Add each radius to the distance to its own link, and then
       take the maximum
     forwards: your code works from the base outwards. Start at the last joint, because a
       joint moves the links distal to it
     less-the-base: your code uses the farthest point of the whole arm for every joint.
-      Use only the links distal to the joint
+      Use only the links that the joint moves
     less-the-base 2: your code measures the farthest distal point from the base. Measure
       it from the joint instead
-    largest-far-behind: your code adds the largest distal link radius to the distance of
-      the last link. Add each radius to the distance of its own link, and then take the
+    largest-far-behind: your code adds the largest distal radius to the distance to the
+      last link. Add each radius to the distance to its own link, and then take the
       maximum
-    largest-far-behind 2: your code adds the largest link radius beyond the joint's own
-      link to the distance of the last link. Add each radius to the distance of its own
-      link, and then take the maximum
-    own-offset-repeated: your code repeats the joint's own link length for every distal
-      link. Use the length of each link
-    offset-of-the-one-before: for joint i, your code uses link_lengths[i - 1]. The
-      distance from link i to the next link is link_lengths[i]
-    far-of-the-next: your code uses the radius of the next link in the bound of a joint.
-      Use the radius of the joint's own link instead
+    largest-far-behind 2: your code adds the largest radius after the joint's own link
+      to the distance to the last link. Add each radius to the distance to its own link,
+      and then take the maximum
+    own-offset-repeated: your code repeats the length of the joint's own link for every
+      distal link. Use the length of each link instead
+    offset-of-the-one-before: for joint i, your code uses `link_lengths[i - 1]`. Use
+      `link_lengths[i]` instead, the distance from link i to the next link
+    far-of-the-next: your code uses the radius of the next link in place of the radius
+      of the joint's own link. Use the radius of the joint's own link
     own-left-out: your code omits the joint's own link. Include it, because the farthest
       point can be on this link
     own-or-tip: your code uses only the joint's own link and the last link for the
@@ -126,28 +129,29 @@ def _(link_lengths, link_radii):
     two-behind-only: your code uses only the joint's own link and the next two links for
       the bound. Include all distal links, because the joint moves all of them
     sum-not-largest: your code adds the link radius to the maximum of the link length
-      and the bound of the next joint. Take the maximum of the link radius and the sum
-      of the other two
+      and the next joint's bound. Take the maximum of the link radius and the sum of the
+      other two instead
     largest-of-three: your code takes the maximum of the link radius, the link length
       and the bound of the next joint. Add the link length and the bound before you take
       the maximum
     largest-far-next: your code adds the largest link radius to the link length. Add the
       bound of the next joint instead
-    mean-not-largest: your code takes the mean over the distal links. Take the maximum,
-      because the bound must hold for every distal point
+    mean-not-largest: your code takes the mean over the distal links. Take the maximum
+      instead, because the bound must hold for every distal point
     offsets-alone: your code takes the maximum of the link radius and the sum of the
-      link lengths. Add the distal radii to the lengths
+      link lengths. Add the radius of each distal link to the distance to that link
+      first
     last-link-forgotten: your code treats the radius of the last link as 0. Use the last
-      entry of link_radii
+      entry of `link_radii`
     last-link-forgotten 2: your code omits the last link. Include it, because the
       farthest point of the arm can be on the last link
-    offsets-to-the-end: your code adds all link lengths, including the last one, and the
-      radius of the last link. Omit the last length, because no link follows the last
-      one
-    offset-too-early: your code adds link_lengths[j] to the radius of link j itself.
-      This length belongs only to the links after link j
-    far-twice: your code adds the joint's own link radius to the bound. The bound should
-      be the maximum of this radius and the distances to the points of the distal links
+    offsets-to-the-end: your code adds all entries of `link_lengths`, including the last
+      one, to the radius of the last link. Omit the last entry, because no link follows
+      the last link
+    offset-too-early: your code adds `link_lengths[j]` to the radius of link j itself.
+      Add this length only for the links after link j
+    far-twice: your code adds the radius of the joint's own link to the bound. Take the
+      maximum of this radius and the distances to points on the distal links instead
     """
     n = len(link_radii)
     right = distal_radii(link_lengths, link_radii)

@@ -98,10 +98,10 @@ OPTIONS = [
     Option("hit-for-free", "your code inverts the test, so it applies shortcuts that "
                            "are blocked. Apply a shortcut if its edge is free",
            {"check": lambda a, b, world: not edge_free(a, b, world)}),
-    Option("only-the-ends-checked", "your code tests only the points i and j. Test "
-                                    "the edge between these points",
+    Option("only-the-ends-checked", "your code tests only the two ends of the new "
+                                    "edge. Test the whole edge between rows i and j",
      {"check": _ends_free}),
-    Option("middle-checked", "your code tests only the midpoint of the edge. Test "
+    Option("middle-checked", "your code tests only the midpoint of the new edge. Test "
                              "the whole edge",
            {"check": _middle_free}),
     Option("next-edge-checked", "your code tests the edge from i to i + 1. Test the "
@@ -134,7 +134,7 @@ OPTIONS = [
                     "length of the current path"),
         ("present", "takes the two rows of each pair from the original path if both "
                     "rows still exist. Use the rows of the current path"))),
-    *(Option(slug, f"{says}. Use int(u m)", {"places": _placed(how, more)})
+    *(Option(slug, f"{says}. Use `int(u * m)` instead", {"places": _placed(how, more)})
       for slug, says, how, more in (
         ("rounded", "your code rounds u m to the nearest integer", round, 0),
         ("rounded", "your code rounds u (m - 1) to the nearest integer", round, -1),
@@ -142,43 +142,47 @@ OPTIONS = [
         ("rounded-up", "your code rounds u (m - 1) up", lambda x: int(np.ceil(x)), -1),
         ("of-m-minus-one", "your code multiplies u by m - 1", int, -1),
         ("of-m-plus-one", "your code multiplies u by m + 1", int, 1))),
-    Option("end-never-named", "your code uses int(u (m - 1)) for both rows and adds 1 "
-                              "to the later row. Use int(u m) for both",
+    Option("end-never-named", "your code uses `int(u * (m - 1))` for both rows and "
+                              "adds 1 to the later row. Use `int(u * m)` for both rows "
+                              "instead",
            {"places": lambda pair, m: [
                int(min(pair) * (m - 1)), int(max(pair) * (m - 1)) + 1]}),
-    Option("two-apart-left", "your code skips rows that are two apart. Test these "
-                             "rows too, because the point between them can be removed",
+    Option("two-apart-left", "your code skips rows that are two apart. Test these rows "
+                             "too, because the row between them can be removed",
            {"least": 2}),
-    Option("three-apart-left", "your code skips rows that are two or three apart. "
-                               "Test these rows too, because the points between them "
-                               "can be removed",
+    Option("three-apart-left", "your code skips rows that are two or three apart. Test "
+                               "these rows too, because the rows between them can be "
+                               "removed",
            {"least": 3}),
     Option("pairs-backwards", "your code uses the pairs in reverse order. Start with "
-                              "the first pair",
+                              "the first pair instead",
            {"used": lambda pairs: pairs[::-1]}),
-    Option("first-pair-left-out", "your code does not use the first pair. Use all "
-                                  "pairs",
+    Option("first-pair-left-out", "your code omits the first pair. Use all pairs",
            {"used": lambda pairs: pairs[1:]}),
-    Option("last-pair-left-out", "your code does not use the last pair. Use all pairs",
+    Option("last-pair-left-out", "your code omits the last pair. Use all pairs",
            {"used": lambda pairs: pairs[:-1]}),
     Option("first-pair-only", "your code uses only the first pair. Use all pairs",
            {"used": lambda pairs: pairs[:1]}),
     Option("pairs-twice", "your code uses all pairs twice. Use each pair once",
            {"used": lambda pairs: np.concatenate([pairs, pairs])}),
-    Option("first-cut-only", "your code stops after the first shortcut. Try all "
-                             "pairs",
+    Option("first-cut-only", "your code stops after the first shortcut. Try all pairs",
            {"ends": "cut"}),
     Option("ends-when-blocked", "your code stops at the first pair without a shortcut. "
                                 "Try all pairs", {"ends": "blocked"}),
-    Option("one-node-short", "your code removes row j too. Keep row j",
+    Option("one-node-short", "your code also removes row j. Keep row j, because the "
+                             "tested edge ends there",
          {"join": _kept(0, 1)}),
-    Option("one-node-short", "your code removes row i too. Keep row i",
+    Option("one-node-short", "your code also removes row i. Keep row i, because the "
+                             "tested edge begins there",
          {"join": _kept(-1, 0)}),
-    Option("both-ends-short", "your code removes rows i and j too. Keep both rows",
+    Option("both-ends-short", "your code also removes rows i and j. Keep both rows, "
+                              "because they are the ends of the tested edge",
            {"join": _kept(-1, 1)}),
-    Option("one-too-many", "your code keeps the row before j. Remove this row",
+    Option("one-too-many", "your code keeps the row before j. Remove all rows between "
+                           "i and j",
            {"join": _kept(0, -1)}),
-    Option("one-too-many", "your code keeps the row after i. Remove this row",
+    Option("one-too-many", "your code keeps the row after i. Remove all rows between i "
+                           "and j",
            {"join": _kept(1, 0)}),
     Option("one-row-only", "your code removes only the row after i. Remove all rows "
                            "between i and j",
@@ -186,16 +190,18 @@ OPTIONS = [
     Option("one-row-only", "your code removes only the row before j. Remove all rows "
                            "between i and j",
            {"join": lambda p, i, j: np.delete(p, j - 1, axis=0)}),
-    Option("middle-put-in", "your code inserts the midpoint of the edge. Do not add a "
+    Option("middle-put-in", "your code inserts the midpoint of the new edge. Add no "
                             "point",
            {"join": lambda p, i, j: np.vstack([p[: i + 1], (p[i] + p[j])[None] / 2,
                                                p[j:]])}),
-    Option("ends-at-i", "your path ends at i. Append the path from j on",
+    Option("ends-at-i", "your code returns only the path up to row i. Append the path "
+                        "from row j on",
          {"join": lambda p, i, j: p[: i + 1]}),
-    Option("begins-at-j", "your path begins at j. Put the path up to i before it",
+    Option("begins-at-j", "your code returns only the path from row j on. Put the path "
+                          "up to row i before it",
          {"join": lambda p, i, j: p[j:]}),
-    Option("inside-kept", "your code keeps the rows between i and j and removes the "
-                          "others. Remove the rows between i and j instead",
+    Option("inside-kept", "your code keeps only rows i to j. Remove the rows between i "
+                          "and j instead",
            {"join": lambda p, i, j: p[i : j + 1]}),
 ]  # fmt: skip
 

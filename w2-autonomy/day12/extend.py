@@ -131,17 +131,17 @@ def _part_of_the_way(node, i, q, world):
 
 @row.wrongs
 def _(tree, sample, step, world):
-    """from-the-newest: your tree grows from its newest node. It should grow from the
-      node nearest to the sample
-    from-the-root: your tree grows from its root. It should grow from the node nearest
-      to the sample
-    sample-itself: your new node is the sample itself. Limit the edge to one step with
-      `steer`
-    sample-itself 2: your new node is the sample itself, and your code tests the whole
-      edge to the sample. Limit the edge to one step with `steer`
+    """from-the-newest: your code extends the tree from its newest node. Extend the tree
+      from the node nearest to the sample instead
+    from-the-root: your code extends the tree from its root. Extend the tree from the
+      node nearest to the sample instead
+    sample-itself: your code returns the sample itself as the new point. Limit the edge
+      to one step with `steer`
+    sample-itself 2: your code returns the sample itself as the new point, and it tests
+      the whole edge to the sample. Limit the edge to one step with `steer`
     point-only: your code tests only the new point. Test the whole edge to the new point
     node-only: your code tests only the node from which the tree grows. Test the whole
-      edge
+      edge to the new point
     always-free: your code reports every edge as free. Test the edge from the nearest
       node to the new point
     never-free: your code reports every edge as blocked. Test the edge from the nearest
@@ -150,58 +150,57 @@ def _(tree, sample, step, world):
       the edge from the nearest node to the new point instead
     edge-to-the-sample: your code tests the edge to the sample. Test only the edge to
       the new point
-    edge-of-two-steps: your code tests an edge of two steps. Test an edge of one step,
-      because the tree grows by one step
+    edge-of-two-steps: your code tests an edge of two steps. Test only the edge to the
+      new point, which is at most one step long
     edge-on-from-there: your code tests the edge from the new point to the sample. Test
       the edge from the nearest node to the new point
-    hit-for-free: your code inverts the third result. It should be True if the edge is
-      free
-    stays-where-blocked: if the edge is not free, your code returns the nearest node.
+    hit-for-free: your code negates the third result. Return True if the edge is free
+    stays-where-blocked: your code returns the nearest node if the edge is not free.
       Return the new point in both cases
     index-of-the-new: your code returns the index of the new node. Return the index of
       the node from which the tree grows
-    away: your tree grows away from the sample. Call `steer` with the node first and the
-      sample second
+    away: your code extends the tree away from the sample. Call `steer` with the node
+      first and the sample second
     from-the-sample: your code steers from the sample to the node. Steer from the node
       to the sample
     from-the-sample 2: your code steers from the sample to the node. Steer from the node
       to the sample
-    farthest: your tree grows from the node farthest from the sample. It should grow
-      from the nearest node
-    largest-difference: your code chooses the nearest node by the largest coordinate
+    farthest: your code extends the tree from the node farthest from the sample. Extend
+      the tree from the nearest node instead
+    largest-difference: your code selects the nearest node by the largest coordinate
       difference. Use the Euclidean distance instead
-    largest-difference 2: your code finds the nearest node, and its distance, by the
-      largest coordinate difference. Use the Euclidean distance instead
-    sum-of-differences: your code chooses the nearest node by the sum of the absolute
-      differences. Use the Euclidean distance instead
+    largest-difference 2: your code uses the largest coordinate difference to find the
+      nearest node and its distance. Use the Euclidean distance instead
+    sum-of-differences: your code selects the nearest node by the sum of the absolute
+      coordinate differences. Use the Euclidean distance instead
     squared-for-plain: your code divides the step by the squared distance to the sample.
-      Divide it by the distance instead
+      Divide the step by the distance instead
     root-to-the-sample: your code tests the edge from the root to the sample. Test the
       edge from the nearest node to the new point
-    standing-is-blocked: if the sample equals a node, your code reports a blocked edge.
+    standing-is-blocked: your code reports a blocked edge if the sample equals a node.
       Report this edge as free if the node is free
-    own-is-free: your code does not call the method `edge_free` of a world that has one,
-      so it reports every edge of this world as free. Call this method
-    own-is-blocked: your code does not call the method `edge_free` of a world that has
-      one, so it reports every edge of this world as blocked. Call this method
+    own-is-free: your code reports every edge as free in a world with its own method
+      `edge_free`. Call this method to test the edge
+    own-is-blocked: your code reports every edge as blocked in a world with its own
+      method `edge_free`. Call this method to test the edge
     free-if-reached: your code reports a free edge only if the step reaches the sample.
-      Return the result of the test for every new edge, even if it does not reach the
-      sample
-    reached-is-free: if the step reaches the sample, your code does not test the edge.
+      Return the result of the edge test even if the step does not reach the sample
+    reached-is-free: your code does not test the edge if the step reaches the sample.
       Test every edge
     ends-only: your code tests only the two ends of the edge. Test the points between
       them too
-    twice-a-step: your edge has a length of two steps. Limit it to one step
-    half-a-step: your edge has a length of half a step. Use the whole step
-    unit-step: your edge has length 1. Use the argument `step` instead
-    added-twice: your code adds the result of `steer` to the node. Use the result
+    twice-a-step: your code adds an edge of two steps. Limit the edge to one step
+    half-a-step: your code adds an edge of half a step. Use the whole step
+    unit-step: your code adds an edge of length 1. Use the argument `step` as the length
+      instead
+    added-twice: your code adds the result of `steer` to the node. Return the result
       itself, because `steer` returns a point and not a displacement
     nearest-of-the-free: your code selects the nearest node among those with a free
-      edge. Select the nearest node of all and report whether its edge is free
-    sample-where-blocked: if the edge is not free, your code returns the sample. Return
+      edge. Select the nearest of all nodes, and report whether its edge is free
+    sample-where-blocked: your code returns the sample if the edge is not free. Return
       the new point in both cases
-    part-of-the-way: if the edge is not free, your code shortens the edge until it is
-      free. Leave the new point unchanged and return False
+    part-of-the-way: your code shortens the edge until it is free. Leave the new point
+      unchanged, and return False if the whole edge is not free
     """
     own = world is not discs_of(world)
     world = discs_of(world)

@@ -73,22 +73,27 @@ OPTIONS = [
     *_each("p", [
         ("one-more", "your p is (k + 1) / (n + 2). Use k / n",
          lambda k, n: (k + 1) / (n + 2)),
-        ("half-more", "your p is (k + 1/2) / (n + 1). Use k / n",
+        ("half-more", "your code uses p = (k + 1/2) / (n + 1). Use p = k / n instead",
          lambda k, n: (k + 0.5) / (n + 1)),
-        ("two-more", "your p is (k + 2) / (n + 4). Use k / n",
+        ("two-more", "your code uses p = (k + 2) / (n + 4). Use p = k / n instead",
          lambda k, n: (k + 2) / (n + 4)),
-        ("n-plus-one", "your p is k / (n + 1). Use k / n", lambda k, n: k / (n + 1)),
-        ("n-less-one", "your p is k / (n - 1). Use k / n",
+        ("n-plus-one", "your code uses p = k / (n + 1). Use p = k / n instead",
+         lambda k, n: k / (n + 1)),
+        ("n-less-one", "your code uses p = k / (n - 1). Use p = k / n instead",
          lambda k, n: k / max(n - 1, 1)),
-        ("whole-division", "your p is k // n, which is 0 or 1. Use k / n",
+        ("whole-division", "your code uses p = k // n, which is 0 or 1. Use p = k / n "
+                           "instead",
          lambda k, n: k // n),
-        ("shifted-p", "your p is (k + z^2 / 2) / (n + z^2), which is the centre of the "
-                      "interval. Use k / n", lambda k, n: (k + Z**2 / 2) / (n + Z**2)),
-        ("failures", "your p is the proportion of failures. Use k / n",
+        ("shifted-p", "your code uses p = (k + z^2 / 2) / (n + z^2), which is the "
+                      "centre of the interval. Use p = k / n instead",
+         lambda k, n: (k + Z**2 / 2) / (n + Z**2)),
+        ("failures", "your code uses the proportion of failures as p. Use p = k / n "
+                     "instead",
          lambda k, n: (n - k) / n),
     ]),
     *_each("moved", [
-        (slug, f"your code adds {says} to k / n in the centre. Add z^2 / (2 n)", of)
+        (slug, f"your code adds {says} to k / n in the centre. Add z^2 / (2 n) "
+               "instead", of)
         for slug, says, of in (
             ("centre-not-moved", "nothing", lambda z, n: 0.0),
             ("two-n", "z^2 / n", lambda z, n: z**2 / n),
@@ -103,13 +108,14 @@ OPTIONS = [
     *_each("front", [
         ("z-forgotten", "your code omits the factor z before the root. Multiply the "
                         "root by z", lambda z: 1.0),
-        ("z-squared", "your code multiplies the root by z^2. Multiply it by z",
+        ("z-squared", "your code multiplies the root by z^2. Multiply it by z instead",
          lambda z: z * z),
-        ("half-width", "your code multiplies the root by z / 2. Multiply it by z",
+        ("half-width", "your code multiplies the root by z / 2. Multiply it by z "
+                       "instead",
          lambda z: z / 2),
     ]),
     *_each("noise", [
-        (slug, f"your root contains {says}. It should contain p (1 - p) / n", of)
+        (slug, f"your code uses {says} under the root. Use p (1 - p) / n instead", of)
         for slug, says, of in (
             ("n-less-one", "p (1 - p) / (n - 1)",
              lambda p, n: p * (1 - p) / max(n - 1, 1)),
@@ -120,11 +126,11 @@ OPTIONS = [
             ("failures-forgotten", "p / n", lambda p, n: p / n),
             ("p-squared", "p^2 / n", lambda p, n: p * p / n),
             ("widest-noise", "1 / (4 n)", lambda p, n: 0.25 / n),
-            ("noise-forgotten", "no p (1 - p) / n", lambda p, n: 0.0))
+            ("noise-forgotten", "0 for p (1 - p) / n", lambda p, n: 0.0))
     ]),
     *_each("more", [
-        (slug, f"your second term under the root is {says}. It should be z^2 / (4 "
-               f"n^2)", of)
+        (slug, f"your code uses {says} as the second term under the root. Use z^2 / (4 "
+               f"n^2) instead", of)
         for slug, says, of in (
             ("width-without-z2", "0", lambda z, n: 0.0),
             ("n-for-n2", "z^2 / (4 n)", lambda z, n: z**2 / (4 * n)),
@@ -165,34 +171,34 @@ OPTIONS = [
         ("continuity", "your code adds 1 / (2 n) to the half-width, as in a "
                        "continuity correction. Omit this term",
          lambda a, n: a + 1 / (2 * n)),
-        ("half-width", "your interval is half as wide as it should be. Add and "
-                       "subtract the whole half-width",
+        ("half-width", "your code returns an interval that is half as wide as the "
+                       "Wilson interval. Add and subtract the whole half-width",
          lambda a, n: a / 2),
         ("not-rooted", "your code squares the half-width. Add and subtract the "
                        "half-width itself", lambda a, n: a * a),
     ]),
     *_each("out", [
-        ("percent", "your result is in per cent. Return a proportion",
+        ("percent", "your code returns per cent. Return proportions instead",
          lambda ends, n: 100 * ends),
-        ("counts", "your code returns counts. Return proportions",
+        ("counts", "your code returns counts. Return proportions instead",
          lambda ends, n: n * ends),
-        ("cut", "your code clamps the ends to the range from 0.01 to 0.99. Do not "
-                "clamp them", lambda ends, n:
-         np.clip(ends, 0.01, 0.99)),
-        ("cut", "your code clamps the ends to the range from 0 to 1. Omit this step, "
-                "because the ends of a Wilson interval never lie outside this range",
+        ("cut", "your code clamps the ends to [0.01, 0.99]. Omit this clamp",
+         lambda ends, n: np.clip(ends, 0.01, 0.99)),
+        ("cut", "your code clamps the ends to [0, 1]. Omit this clamp, because the "
+                "ends of a Wilson interval never lie outside this range",
          lambda ends, n: np.clip(ends, 0, 1)),
-        ("high-first", "your upper end comes first. Return the lower end first",
+        ("high-first", "your code returns the upper end first. Return the lower end "
+                       "first",
          lambda ends, n: ends[::-1]),
-        ("low-is-zero", "your lower end is always 0. Compute it too, because the "
-                        "interval should be two-sided",
+        ("low-is-zero", "your code always returns 0 as the lower end. Compute the "
+                        "lower end too, because the interval has two sides",
          lambda ends, n: np.array([0.0, ends[1]])),
-        ("high-is-one", "your upper end is always 1. Compute it too, because the "
-                        "interval should be two-sided",
+        ("high-is-one", "your code always returns 1 as the upper end. Compute the "
+                        "upper end too, because the interval has two sides",
          lambda ends, n: np.array([ends[0], 1.0])),
-        ("low-alone", "both of your entries are the lower end. Return both ends",
+        ("low-alone", "your code returns the lower end twice. Return both ends",
          lambda ends, n: ends[[0, 0]]),
-        ("high-alone", "both of your entries are the upper end. Return both ends",
+        ("high-alone", "your code returns the upper end twice. Return both ends",
          lambda ends, n: ends[[1, 1]]),
         ("middle-and-width", "your code returns the centre and the half-width. Return "
                              "the two ends instead", lambda ends, n:

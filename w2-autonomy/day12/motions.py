@@ -137,134 +137,138 @@ def _same_limit(choose: Callable[[Array], float]) -> Any:
 OPTIONS = [
     *(Option(slug, says, {"two_ds": of}, alone="points" in slug)
       for slug, says, of in (
-        ("ds-for-2-ds", "your sd^2 grows by ds sdd in a step. It should grow by 2 ds "
-                        "sdd",
+        ("ds-for-2-ds", "your code adds ds sdd to sd^2 in each step. Add 2 ds sdd "
+                        "instead",
          lambda n: 1 / n),
-        ("four-ds", "your sd^2 grows by 4 ds sdd in a step. It should grow by 2 ds "
-                    "sdd",
+        ("four-ds", "your code adds 4 ds sdd to sd^2 in each step. Add 2 ds sdd "
+                    "instead",
          lambda n: 4 / n),
-        ("half-ds", "your sd^2 grows by ds sdd / 2 in a step. It should grow by 2 ds "
-                    "sdd",
+        ("half-ds", "your code adds ds sdd / 2 to sd^2 in each step. Add 2 ds sdd "
+                    "instead",
          lambda n: 0.5 / n),
-        ("points-for-steps", "your ds is 1 / (N + 1). The N + 1 points have N steps "
-                             "between them, so ds should be 1 / N",
+        ("points-for-steps", "your code uses ds = 1 / (N + 1). Use ds = 1 / N, because "
+                             "N + 1 points have N steps between them",
          lambda n: 2 / (n + 1)),
-        ("points-for-steps", "your ds is 1 / (N - 1). The N + 1 points have N steps "
-                             "between them, so ds should be 1 / N",
+        ("points-for-steps", "your code uses ds = 1 / (N - 1). Use ds = 1 / N, because "
+                             "N + 1 points have N steps between them",
          lambda n: 2 / max(n - 1, 1)),
-        ("points-for-steps", "your ds is 1 / (N + 2). The N + 1 points have N steps "
-                             "between them, so ds should be 1 / N",
+        ("points-for-steps", "your code uses ds = 1 / (N + 2). Use ds = 1 / N, because "
+                             "N + 1 points have N steps between them",
          lambda n: 2 / (n + 2)),
-        ("ds-forgotten", "your code omits ds, or your ds is 1. It should be 1 / N",
+        ("ds-forgotten", "your code omits ds, or it uses ds = 1. Use ds = 1 / N "
+                         "instead",
          lambda n: 2.0),
-        ("ds-forgotten", "your code omits the factor of 2 ds, or this factor is 1. "
-                         "The step ds should be 1 / N",
+        ("ds-forgotten", "your code omits the factor of 2 ds, or this factor is 1. Use "
+                         "2 ds with ds = 1 / N instead",
          lambda n: 1.0))),
-    Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2. Its argument "
-                         "should be sd",
+    Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2. Pass sd "
+                         "instead",
            {"sd": lambda x: x}),
-    Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2 in the "
-                         "forward pass. Its argument should be sd",
+    Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2 in the forward "
+                         "pass. Pass sd instead",
            {"forward_sd": lambda x: x}),
-    Option("sd-squared-twice", "your code calls `path_accel_bounds` with sd^4. Its "
-                               "argument should be sd",
+    Option("sd-squared-twice", "your code calls `path_accel_bounds` with sd^4. Pass sd "
+                               "instead",
            {"sd": lambda x: x * x}, alone=True),
-    Option("at-rest", "your code calls `path_accel_bounds` with sd = 0 in both "
-                      "passes. Its argument should be the sd at that point",
+    Option("at-rest", "your code calls `path_accel_bounds` with sd = 0 in both passes. "
+                      "Pass the sd of the point instead",
            {"sd": lambda x: 0.0 * x}, alone=True),
     Option("at-rest", "your code calls `path_accel_bounds` with sd = 0 in the forward "
-                      "pass. Its argument should be the sd at that point",
+                      "pass. Pass the sd of the point instead",
            {"forward_sd": lambda x: 0.0 * x}, alone=True),
-    Option("start-not-at-rest", "your motion starts with the largest sd^2 from which "
-                                "it can stop. Start with sd^2 = 0 instead",
+    Option("start-not-at-rest", "your code starts the motion with the largest sd^2 "
+                                "from which the arm can stop. Start it with sd^2 = 0 "
+                                "instead",
            {"start": "K"}),
-    Option("end-not-at-rest", "your backward pass starts with sd2_max at the end. "
-                              "Start with sd^2 = 0 instead",
+    Option("end-not-at-rest", "your code starts the backward pass with `sd2_max` at "
+                              "the end. Start it with sd^2 = 0 instead",
            {"last": False}),
     *(Option(slug, says, {"passes": one}) for slug, says, one in (
         ("no-braking", "your code has no backward pass. Add a backward pass that "
                        "begins with sd^2 = 0 at the last point", "forward"),
         ("backward-pass-only", "your code has no forward pass. Add a forward pass "
                                "that begins with sd^2 = 0 at the first point", "back"),
-        ("smaller-of-two-passes", "your code computes the two passes independently "
-                                  "and takes the minimum. The forward pass should "
-                                  "stay below the result of the backward pass",
+        ("smaller-of-two-passes", "your code computes the two passes independently and "
+                                  "takes the minimum. Limit sd^2 in the forward pass "
+                                  "by the result of the backward pass instead",
          "smaller"))),
     *(Option("few-bisections", f"your bisection stops too early, after {n} halvings. "
                               "Halve the interval more often",
            {"bisections": n}, alone=True)
       for n in (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20)),
     Option("bobrow", "your code computes the smallest sdd at the end of each step in "
-                     "the backward pass. Compute it at the first point of the step",
+                     "the backward pass. Compute it at the first point of the step "
+                     "instead",
            {"swept": True}),
     Option("limits-of-the-next-point", "your code computes the bounds on sdd at the "
-                                       "end of each step in both passes. Compute the "
-                                       "bounds at the first point of the step",
+                                       "end of each step in both passes. Compute them "
+                                       "at the first point of the step instead",
            {"back_at": 1, "at": 1}),
     Option("limits-of-the-next-point", "your code computes the bounds on sdd at the "
-                                       "end of each step in the backward pass. "
-                                       "Compute the bounds at the first point of the "
-                                       "step",
+                                       "end of each step in the backward pass. Compute "
+                                       "them at the first point of the step instead",
         {"back_at": 1}),
     Option("limits-of-the-next-point", "your code computes the bounds on sdd at the "
                                        "end of each step in the forward pass. Compute "
-                                       "the bounds at the first point of the step",
+                                       "them at the first point of the step instead",
         {"at": 1}),
     *(Option(slug, says, {"pull": of}, alone=True) for slug, says, of in (
-        ("limits-of-the-first-point", "your code uses a, b and c of the first point "
-                                      "in every step. Use the values of each point",
+        ("limits-of-the-first-point", "your code uses `a`, `b` and `c` of the first "
+                                      "point in every step. Use the values of each "
+                                      "point instead",
          lambda *rows: tuple(np.broadcast_to(x[0], x.shape) for x in rows)),
-        ("limits-of-the-last-point", "your code uses a, b and c of the last point in "
-                                     "every step. Use the values of each point",
+        ("limits-of-the-last-point", "your code uses `a`, `b` and `c` of the last "
+                                     "point in every step. Use the values of each "
+                                     "point instead",
          lambda *rows: tuple(np.broadcast_to(x[-1], x.shape) for x in rows)),
         ("gravity-forgotten", "your code omits gravity in the torques. Include the "
-                              "term c",
+                              "term `c`",
          lambda A, B, G: (A, B, 0 * G)),
-        ("gravity-of-the-first-point", "your code uses the gravity of the first "
-                                       "point at every point. Use the gravity of "
-                                       "each point",
+        ("gravity-of-the-first-point", "your code uses the gravity torque of the first "
+                                       "point at every point. Use the gravity torque "
+                                       "of each point instead",
          lambda A, B, G: (A, B, np.broadcast_to(G[0], G.shape))),
-        ("gravity-sign", "your code reverses the sign of gravity. Use c itself",
+        ("gravity-sign", "your code reverses the sign of gravity. Use `c` itself",
          lambda A, B, G: (A, B, -G)),
-        ("coriolis-forgotten", "your code omits b sd^2 in the torques. Include this "
-                               "term",
+        ("coriolis-forgotten", "your code omits `b * sd**2` in the torques. Include "
+                               "this term",
          lambda A, B, G: (A, 0 * B, G)),
-        ("coriolis-sign", "your code reverses the sign of b. Use b itself",
+        ("coriolis-sign", "your code reverses the sign of `b`. Use `b` itself",
          lambda A, B, G: (A, -B, G)),
-        ("B-and-G-exchanged", "your code swaps `b` and c. Pass them in the order a, "
-                              "b, c", lambda A, B, G: (A, G, B)),
-        ("A-and-B-exchanged", "your code swaps `a` and `b`. Pass them in the order a, "
-                              "b, c",
+        ("B-and-G-exchanged", "your code swaps `b` and `c`. Pass the rows in the order "
+                              "`a`, `b`, `c`", lambda A, B, G: (A, G, B)),
+        ("A-and-B-exchanged", "your code swaps `a` and `b`. Pass the rows in the order "
+                              "`a`, `b`, `c`",
          lambda A, B, G: (B, A, G)))),
     *(Option(slug, says, {"most": of}, alone=True) for slug, says, of in (
-        ("no-speed-limit", "your code does not use sd2_max. Limit sd^2 to sd2_max in "
-                           "both passes, because the speed of the motors is limited",
+        ("no-speed-limit", "your code omits `sd2_max`. Limit sd^2 to `sd2_max` in both "
+                           "passes, because the joint velocities are limited",
          lambda x: np.full_like(x, 1e3)),
-        ("x-max-of-the-next-point", "your code uses sd2_max of the next point. Use "
-                                    "sd2_max of the same point",
+        ("x-max-of-the-next-point", "your code uses `sd2_max` of the next point. Use "
+                                    "`sd2_max` of the same point instead",
          lambda x: np.append(x[1:], x[-1])),
-        ("x-max-of-the-point-before", "your code uses sd2_max of the previous point. "
-                                      "Use sd2_max of the same point",
+        ("x-max-of-the-point-before", "your code uses `sd2_max` of the previous point. "
+                                      "Use `sd2_max` of the same point instead",
          lambda x: np.append(x[0], x[:-1])),
-        ("least-x-max", "your code uses the smallest sd2_max at every point. Each "
-                        "point has its own sd2_max",
+        ("least-x-max", "your code uses the smallest entry of `sd2_max` at every "
+                        "point. Use the entry of each point instead",
          lambda x: np.full_like(x, x.min())),
-        ("x-max-of-the-first-point", "your code uses sd2_max of the first point at "
-                                     "every point. Each point has its own sd2_max",
+        ("x-max-of-the-first-point", "your code uses the first entry of `sd2_max` at "
+                                     "every point. Use the entry of each point instead",
          lambda x: np.full_like(x, x[0])),
-        ("x-max-squared", "your code squares sd2_max. Use it unchanged, because "
-                          "sd2_max is already a square",
+        ("x-max-squared", "your code squares `sd2_max`. Use `sd2_max` unchanged, "
+                          "because its entries are already squares",
          lambda x: x**2),
-        ("x-max-rooted", "your code takes the square root of sd2_max. Compare sd^2 "
-                         "with sd2_max itself", np.sqrt))),
+        ("x-max-rooted", "your code takes the square root of `sd2_max`. Compare sd^2 "
+                         "with `sd2_max` itself", np.sqrt))),
     *(Option(slug, says, {"stands": of}) for slug, says, of in (
         ("cannot-stand-goes", "your code returns a nonzero motion although gravity "
-                              "alone exceeds a torque limit. The arm cannot stay at "
-                              "rest at such a point, so return zeros",
+                              "alone exceeds a torque limit. Return zeros, because the "
+                              "arm cannot stay at rest at such a point",
          lambda G, limits: False),
         ("all-points-too-heavy", "your code returns zeros only if gravity exceeds a "
-                                 "torque limit at every point. Return zeros if "
-                                 "gravity exceeds a limit at any point",
+                                 "torque limit at every point. Return zeros if gravity "
+                                 "exceeds a limit at any point",
          lambda G, limits: np.all(np.abs(G) > limits)),
         ("first-point-alone", "your code compares gravity with the torque limits "
                               "only at the first point. Compare it at every point",
@@ -272,21 +276,21 @@ OPTIONS = [
         ("ends-alone", "your code compares gravity with the torque limits only at "
                        "the two ends. Compare it at every point",
          lambda G, limits: np.any(np.abs(G[[0, -1]]) > limits)),
-        ("gravity-with-sign", "your code compares gravity itself with the torque "
-                              "limits. Compare its absolute value instead, because "
-                              "the limits also apply to negative torques",
+        ("gravity-with-sign", "your code compares the signed gravity torque with the "
+                              "torque limits. Compare its absolute value instead, "
+                              "because the limits also apply to negative torques",
          lambda G, limits: np.any(limits < G)))),
     *(Option(f"without-{what}", f"your backward pass does not test whether {says}. Add "
                               "this test",
              {"without": (what,)}, alone=True) for what, says in (
-        ("allowed", "any sdd is allowed at this speed (low <= high)"),
+        ("allowed", "any sdd is permitted at this speed (low <= high)"),
         ("after", "the motion can slow down to the maximum of the next point"),
         ("turning", "the largest sdd keeps sd^2 at 0 or above"))),
     Option("most-of-the-point-before", "your code limits sd^2 at i + 1 by the maximum "
                                        "at i in the forward pass. Use the maximum at "
                                        "i + 1 instead", {"kept": 0}),
-    *(Option(slug, f"your code uses the {word} torque limit for every joint. Each "
-                   "joint has its own limit",
+    *(Option(slug, f"your code uses the {word} torque limit for every joint. Use each "
+                   f"joint's own limit instead",
              {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
         ("smallest-limit", "smallest", np.min), ("largest-limit", "largest", np.max),
         ("first-limit", "first joint's", lambda x: x[0]))),
@@ -301,14 +305,15 @@ OPTIONS = [
     *(Option(slug, says, {"out": of}) for slug, says, of in (
         ("root", "your code returns sd. Return sd^2 instead", np.sqrt),
         ("squared", "your code returns sd^4. Return sd^2 instead", np.square),
-        ("end-to-start", "your motion runs from the end to the start. Reverse it",
+        ("end-to-start", "your code returns the motion from the end to the start. "
+                         "Reverse the motion",
          lambda x: x[::-1]),
         ("stopped-at-the-end", "your code sets the last entry to 0 only after the "
                                "two passes. Start the backward pass with 0",
          lambda x: np.append(x[:-1], 0.0)),
         ("mirrored", "your code takes the minimum of the motion and its mirror image. "
-                     "Compute both passes instead, because the limits are different "
-                     "in the other direction",
+                     "Compute both passes instead, because the limits differ in the "
+                     "other direction",
          lambda x: np.minimum(x, x[::-1])))),
 ]  # fmt: skip
 

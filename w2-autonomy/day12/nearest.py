@@ -114,35 +114,35 @@ def _(tree, q):
       all coordinates
     one-coordinate 2: your code compares only the last coordinate. Use the distance in
       all coordinates
-    signed-sum: your code adds the differences with their signs, so they cancel. Add the
-      squares of the differences instead
-    signed-sum 2: your code adds the differences before it squares them, so they cancel.
-      Square the differences first
-    last-of-equals: if several nodes are equally near, your code returns the last one.
-      Return the first one, as np.argmin does
-    largest-coordinate: your code compares the nodes by their largest coordinate
-      difference. Use the Euclidean distance instead
-    sum-of-sizes: your code compares the nodes by the sum of the absolute differences.
-      Use the Euclidean distance instead
-    wrapped: your code wraps the differences to [-pi, pi]. Omit this step, because the
-      joints have limits, so q and q + 2 pi are different configurations
-    wrapped 2: your code takes the differences modulo 2 pi. Omit this step, because the
-      joints have limits, so q and q + 2 pi are different configurations
+    signed-sum: your code adds the differences with their signs, so positive and
+      negative differences cancel. Add the squares of the differences instead
+    signed-sum 2: your code adds the differences before it squares them, so positive and
+      negative differences cancel. Square the differences first
+    last-of-equals: your code returns the last of several equally near nodes. Return the
+      first of them, as `np.argmin` does
+    largest-coordinate: your code compares the nodes by their largest absolute
+      coordinate difference. Use the Euclidean distance instead
+    sum-of-sizes: your code compares the nodes by the sum of the absolute coordinate
+      differences. Use the Euclidean distance instead
+    wrapped: your code wraps the differences to [-pi, pi]. Omit this step, because q and
+      q + 2 pi are different configurations of a joint with limits
+    wrapped 2: your code takes the differences modulo 2 pi. Omit this step, because q
+      and q + 2 pi are different configurations of a joint with limits
     weighted: your code gives the coordinates different weights. Use the same weight for
-      all
+      all coordinates
     weighted 2: your code gives the coordinates different weights. Use the same weight
-      for all
-    from-the-origin: your code does not use q, so it returns the node nearest to the
-      origin. Compute the distances from q
+      for all coordinates
+    from-the-origin: your code returns the node nearest to the origin. Return the node
+      nearest to q instead
     q-added: your code adds q to the nodes. Subtract q from the nodes instead
-    most-alike: your code compares the dot products with q. Compare the distances
-      instead, because a dot product also grows with the norm of the node
-    place-of-the-distance: your code returns the position of the root in the order of
-      the distances. Return the index of the smallest distance instead
-    counted-from-the-end: your index counts from the end of the tree. Count from the
-      root
-    smallest-coordinate: your code compares the nodes by their smallest coordinate
-      difference. Use the Euclidean distance instead
+    most-alike: your code compares the dot products of the nodes with q. Compare the
+      distances instead, because a dot product also grows with the norm of the node
+    place-of-the-distance: your code returns the rank of the root in the sorted
+      distances. Return the index of the smallest distance instead
+    counted-from-the-end: your code counts the index from the end of the tree. Count the
+      index from the root, which is row 0
+    smallest-coordinate: your code compares the nodes by their smallest absolute
+      coordinate difference. Use the Euclidean distance instead
     two-coordinates: your code compares only the first two coordinates. Use the distance
       in all coordinates
     first-left-out: your code does not compare the first coordinate. Use the distance in
@@ -157,10 +157,10 @@ def _(tree, q):
     second-nearest: your code returns the second nearest node. Return the nearest node
       instead
     least-not-kept: your code compares each distance only with the distance of the root.
-      Compare it with the smallest distance so far
+      Compare it with the smallest distance so far instead
     row-before: your code compares each distance only with the distance of the previous
-      row. Compare it with the smallest distance so far
-    first-that-is-nearer: your loop stops at the first row that is nearer than the root.
+      row. Compare it with the smallest distance so far instead
+    first-that-is-nearer: your code stops at the first row that is nearer than the root.
       Test all rows
     rounded: your code rounds the distances before it compares them. Omit the rounding,
       because two different distances can become equal
@@ -168,18 +168,18 @@ def _(tree, q):
       rounding, because two different distances can become equal
     root-left-out: your code skips the root, row 0. Include it, because the root can be
       the nearest node
-    root-left-out 2: your code skips the root, row 0, and counts the rows from row 1.
-      Include the root, and count from row 0
+    root-left-out 2: your code skips the root, row 0, and counts the other rows from 0.
+      Include the root, so that the index of the root is 0
     last-left-out: your code skips the last row. Include it, because the last node can
       be the nearest
     over-all-numbers: your code searches for the minimum over all entries of the tree.
-      Each row has one distance, so sum along axis 1
+      Sum the squares along axis 1 first, because each row has one distance
     sum-of-columns: your code sums the squares along axis 0. Sum along axis 1, because
       each row is a node
-    itself-left-out: your code skips a node that equals q. Include such a node, because
+    itself-left-out: your code skips a node that equals q. Include this node, because
       its distance is 0
-    largest-with-sign: your code compares the nodes by their largest signed difference.
-      Use the Euclidean distance instead
+    largest-with-sign: your code compares the nodes by their largest signed coordinate
+      difference. Use the Euclidean distance instead
     """
     away = tree - q
     far = np.sum(away**2, axis=1)

@@ -169,110 +169,113 @@ def _of_holding(rest, pull, c, limits, moves, free):
 
 @row.wrongs
 def _(a, b, c, limits, sd):
-    """not-sorted: if `a` is negative, your code swaps the lower and the upper bound of
-      that joint. Sort the two quotients
-    speed-forgotten: your code omits the term b sd^2. Subtract it from both torque
+    """not-sorted: your code swaps the lower and the upper bound of a joint with a
+      negative `a`. Sort the two quotients
+    speed-forgotten: your code omits the term `b * sd**2`. Subtract it from both torque
       limits
-    speed-sign: your code adds b sd^2 to the limits. Subtract b sd^2 from the limits
+    speed-sign: your code adds `b * sd**2` to the torque limits. Subtract `b * sd**2`
+      from both limits instead
+    gravity-forgotten: your code omits the term `c`. Subtract it from both torque limits
+    gravity-sign: your code adds `c` to the torque limits. Subtract `c` from both limits
       instead
-    gravity-forgotten: your code omits the term c. Subtract it from both torque limits
-    gravity-sign: your code adds c to the limits. Subtract c from the limits instead
-    rest-added: your code adds b sd^2 + c to the limits. Subtract b sd^2 + c from the
-      limits instead
-    rest-not-divided: your code divides the torque limits by `a`, but not b sd^2 + c.
-      Divide both by `a`
-    one-sided: your term b sd^2 + c has the wrong sign in the lower bound. Subtract this
-      term from both torque limits
-    size-of-rest: your code reduces both limits by |b sd^2 + c|. Subtract b sd^2 + c
-      with its sign from both limits instead
+    rest-added: your code adds `b * sd**2 + c` to the torque limits. Subtract `b * sd**2
+      + c` from both limits instead
+    rest-not-divided: your code divides the torque limits by `a`, but not `b * sd**2 +
+      c`. Divide both by `a`
+    one-sided: your code adds `b * sd**2 + c` to the lower torque limit. Subtract this
+      term from both limits
+    size-of-rest: your code reduces both torque limits by `abs(b * sd**2 + c)`. Subtract
+      `b * sd**2 + c` with its sign from both limits instead
     widest: your code takes the union of the joints' intervals. Take the intersection
       instead
-    least-of-both: both of your bounds are the minimum of their quotients. The lower
-      bound should be the maximum of the joints' lower bounds
+    least-of-both: your code uses the minimum of the joints' lower bounds as the lower
+      bound. Use their maximum instead
     first-joint-only: your code uses only the first joint. Use all joints, because every
       joint limits sdd
-    first-joint-only 2: your code uses only the first joint that moves. Use all joints,
-      because every joint limits sdd
+    first-joint-only 2: your code uses only the first joint with a nonzero `a`. Use all
+      joints, because every joint limits sdd
     last-joint-only: your code uses only the last joint. Does your loop overwrite the
       earlier bounds?
     half-the-limit: your code uses only half of each torque limit. Use the whole limit
-    not-divided: your bounds are torques. Divide the torques by `a`
+    not-divided: your code returns torques. Divide the torques by `a`
     times-a: your code multiplies the torques by `a`. Divide the torques by `a` instead
-    one-limit: your code allows torques from 0 to the limit. Allow torques from -limit
+    one-limit: your code permits torques from 0 to the limit. Permit torques from -limit
       to limit
-    greatest-first: your upper bound comes first. Return the lower bound first
-    greatest-first 2: your upper bound comes first unless a joint with a = 0 exceeds its
-      limit. Return the lower bound first
-    none-sorted: if no sdd is allowed, your code sorts the bounds. Leave the lower bound
-      above the upper bound
-    none-sorted 2: if the joints allow no common sdd, your code sorts the bounds. Leave
+    greatest-first: your code returns the upper bound first. Return the lower bound
+      first
+    greatest-first 2: your code returns the upper bound first, unless a joint with `a` =
+      0 exceeds its limit. Return the lower bound first
+    none-sorted: your code sorts the bounds if no sdd is permitted. Leave the lower
+      bound above the upper bound
+    none-sorted 2: your code sorts the bounds if the joints permit no common sdd. Leave
       the lower bound above the upper bound
-    none-is-zero: if no sdd is allowed, your code returns (0, 0), which allows sdd = 0.
-      Leave the lower bound above the upper bound
-    none-is-zero 2: if a joint with a = 0 exceeds its limit, your code returns (0, 0),
-      which allows sdd = 0. Return (inf, -inf) instead
-    none-is-one: if no sdd is allowed, your code reduces the lower bound to the upper
-      bound. Leave the lower bound above the upper bound
-    zero-stops-all: your code returns an empty range for a joint with a = 0 within its
-      torque limit. Skip such a joint, because it does not limit sdd
-    zero-row-ignored: your code ignores a joint with a = 0 that exceeds its torque
-      limit. In this case no sdd is allowed, so return (inf, -inf)
-    gravity-not-divided: your code subtracts c after the division by `a`. The term c is
-      a torque, so subtract it first
-    speed-not-divided: your code subtracts b sd^2 after the division by `a`. This term
-      is a torque, so subtract it first
+    none-is-zero: your code returns (0, 0) if no sdd is permitted, although this result
+      permits sdd = 0. Leave the lower bound above the upper bound
+    none-is-zero 2: your code returns (0, 0) if a joint with `a` = 0 exceeds its limit,
+      although this result permits sdd = 0. Return (inf, -inf) instead
+    none-is-one: your code reduces the lower bound to the upper bound if no sdd is
+      permitted. Leave the lower bound above the upper bound
+    zero-stops-all: your code returns an empty interval for a joint with `a` = 0 within
+      its torque limit. Skip such a joint, because it does not limit sdd
+    zero-row-ignored: your code ignores a joint with `a` = 0 that exceeds its torque
+      limit. Return (inf, -inf) in this case, because no sdd is permitted
+    gravity-not-divided: your code subtracts `c` after the division by `a`. Subtract it
+      before the division, because `c` is a torque
+    speed-not-divided: your code subtracts `b * sd**2` after the division by `a`.
+      Subtract it before the division, because `b * sd**2` is a torque
     negative-left-out: your code ignores joints with a negative `a`. Include them,
-      because every joint that moves limits sdd
-    largest-limit: your code uses the largest torque limit for every joint. Each joint
-      has its own limit
-    smallest-limit: your code uses the smallest torque limit for every joint. Each joint
-      has its own limit
-    last-joint-greatest: your upper bound is the upper bound of the last joint. Take the
-      minimum over all joints
-    last-joint-least: your lower bound is the lower bound of the last joint. Take the
-      maximum over all joints
-    mean-of-joints: your bounds are means over the joints. Take the maximum of the lower
-      bounds and the minimum of the upper bounds
-    sum-of-joints: your bounds are sums over the joints. Take the maximum of the lower
-      bounds and the minimum of the upper bounds
-    from-zero: both of your bounds start at 0. Start the lower bound at -inf and the
+      because every joint with a nonzero `a` limits sdd
+    largest-limit: your code uses the largest torque limit for every joint. Use each
+      joint's own limit instead
+    smallest-limit: your code uses the smallest torque limit for every joint. Use each
+      joint's own limit instead
+    last-joint-greatest: your code returns the last joint's upper bound as the upper
+      bound. Take the minimum over all joints instead
+    last-joint-least: your code returns the last joint's lower bound as the lower bound.
+      Take the maximum over all joints instead
+    mean-of-joints: your code takes the means of the joints' bounds. Take the maximum of
+      the lower bounds and the minimum of the upper bounds instead
+    sum-of-joints: your code adds the joints' bounds. Take the maximum of the lower
+      bounds and the minimum of the upper bounds instead
+    from-zero: your code starts both bounds at 0. Start the lower bound at -inf and the
       upper bound at inf
     last-joint-only 2: your code replaces the bounds at each joint. Keep the largest
-      lower and the smallest upper bound of all joints
-    never-narrowed: your bounds stay infinite, because min and max are swapped. Keep the
-      largest lower and the smallest upper bound
-    zero-kept-in: your range always includes 0. Return the bounds themselves, because
-      sdd = 0 need not be allowed
+      lower bound and the smallest upper bound of all joints
+    never-narrowed: your code swaps `min` and `max`, so the bounds stay infinite. Keep
+      the largest lower bound and the smallest upper bound
+    zero-kept-in: your code returns an interval that always contains 0. Return the
+      bounds themselves, because sdd = 0 need not be permitted
     six-joints: your code uses only the first six joints. Use all joints, because the
       arm can have any number of joints
     first-left-out: your code skips the first joint. Use all joints, because every joint
       limits sdd
-    none-is-zero 3: if the joints allow no common sdd, your code returns (0, 0), which
-      allows sdd = 0. Leave the lower bound above the upper bound
-    none-is-infinite: if the joints allow no common sdd, your code returns (inf, -inf).
-      Return the bounds themselves, because (inf, -inf) is reserved for a joint with a =
-      0
-    no-mover-is-none: if every `a` is 0 and every torque is within its limit, your code
-      returns (inf, -inf). Any sdd is allowed, so return (-inf, inf)
-    held-by-gravity-alone: for a joint with a = 0, your code compares only c with the
-      limit. Compare b sd^2 + c with the limit instead
-    held-by-speed-alone: for a joint with a = 0, your code compares only b sd^2 with the
-      limit. Compare b sd^2 + c with the limit instead
-    held-with-sign: for a joint with a = 0, your code compares the torque without its
-      absolute value. Compare the absolute value instead, because the limit also applies
-      to negative torques
-    all-have-to-hold: your code compares b sd^2 + c with the limit for joints that move
-      too. This test is only for joints with a = 0
-    any-that-holds: your code accepts the speed if at least one joint with a = 0 is
-      within its limit. All joints with a = 0 must be within their limits
+    none-is-zero 3: your code returns (0, 0) if the joints permit no common sdd,
+      although this result permits sdd = 0. Leave the lower bound above the upper bound
+    none-is-infinite: your code returns (inf, -inf) if the joints permit no common sdd.
+      Return the bounds themselves, because (inf, -inf) is reserved for a joint with `a`
+      = 0
+    no-mover-is-none: your code returns (inf, -inf) if every `a` is 0 and every torque
+      is within its limit. Return (-inf, inf), because any sdd is permitted
+    held-by-gravity-alone: for a joint with `a` = 0, your code compares only `c` with
+      the limit. Compare `b * sd**2 + c` with the limit instead
+    held-by-speed-alone: for a joint with `a` = 0, your code compares only `b * sd**2`
+      with the limit. Compare `b * sd**2 + c` with the limit instead
+    held-with-sign: for a joint with `a` = 0, your code compares the signed torque with
+      the limit. Compare the absolute value instead, because the limit also applies to
+      negative torques
+    all-have-to-hold: your code compares `b * sd**2 + c` with the limit also for joints
+      with a nonzero `a`. Make this comparison only for joints with `a` = 0
+    any-that-holds: your code accepts the speed if at least one joint with `a` = 0 is
+      within its limit. Accept the speed only if all these joints are within their
+      limits
     small-is-zero: your code treats a small `a` as 0. Compare `a` with 0 exactly,
       because a joint with a small `a` still limits sdd
     small-is-zero 2: your code treats a small `a` as 0. Compare `a` with 0 exactly,
       because a joint with a small `a` still limits sdd
     small-is-zero 3: your code treats a small `a` as 0. Compare `a` with 0 exactly,
       because a joint with a small `a` still limits sdd
-    held-below-its-limit: your code rejects a joint with a = 0 whose torque equals its
-      limit. Accept it, because equality is allowed
+    held-below-its-limit: your code rejects a joint with `a` = 0 whose torque equals its
+      limit. Accept this joint, because its torque does not exceed the limit
     """
     pull = b * sd**2
     rest = pull + c

@@ -49,47 +49,48 @@ def _(rng):
 
 @row.wrongs
 def _(M, dq_ds, d2q_ds2, coriolis, gravity):
-    """ddq-forgotten: your code omits M d2q_ds2 in b. Add this term, because on a curved
-      path the joints accelerate even if sd is constant
-    bias-for-coriolis: your code also adds gravity to b. Add it only to c, because
-      gravity does not depend on sd
+    """ddq-forgotten: your code omits `M @ d2q_ds2` in `b`. Add this term, because the
+      joints accelerate on a curved path even if sd is constant
+    bias-for-coriolis: your code also adds gravity to `b`. Add gravity only to `c`,
+      because the gravity torque does not depend on sd
     gravity-off-coriolis: your code subtracts gravity in `b`. Use `coriolis` unchanged,
       because it does not contain gravity
-    m-forgotten: your code omits the mass matrix in `a`. Multiply dq_ds by the mass
+    m-forgotten: your code omits the mass matrix in `a`. Multiply `dq_ds` by the mass
       matrix
-    m-forgotten 2: your code omits the mass matrix in `b`. Multiply d2q_ds2 by the mass
-      matrix
-    m-forgotten 3: your code omits the mass matrix in both `a` and `b`. Multiply dq_ds
-      and d2q_ds2 by the mass matrix
+    m-forgotten 2: your code omits the mass matrix in `b`. Multiply `d2q_ds2` by the
+      mass matrix
+    m-forgotten 3: your code omits the mass matrix in both `a` and `b`. Multiply `dq_ds`
+      and `d2q_ds2` by the mass matrix
     diagonal-only: your code uses only the diagonal of the mass matrix. Use the whole
       matrix, because the joints are coupled
     diagonal-only 2: your code uses only the diagonal of the mass matrix in `a`. Use the
       whole matrix, because the joints are coupled
     diagonal-only 3: your code uses only the diagonal of the mass matrix in `b`. Use the
       whole matrix, because the joints are coupled
-    a-and-b-exchanged: your code swaps `a` and `b`. The factor dq_ds belongs to sdd, and
-      d2q_ds2 belongs to sd^2
-    g-first: your first row is c. The order should be a, b, c
-    ddq-in-a: your code swaps M dq_ds and M d2q_ds2. The factor of sdd is M dq_ds,
-      because qdd = dq_ds sdd + d2q_ds2 sd^2
-    m-dq-twice: your b contains M dq_ds. It should contain M d2q_ds2
-    both-in-a: your code adds M d2q_ds2 to `a`. Add this term to `b`, because it is
-      multiplied by sd^2
-    gravity-sign: your c is -gravity. It should be +gravity, the torque that holds the
-      arm
-    gravity-forgotten: your code omits gravity, so the third row is 0. Return gravity as
-      the third row, c
-    coriolis-times-dq: your code multiplies the Coriolis torque by dq_ds. Use `coriolis`
-      unchanged, because it is already the torque at qd = dq_ds
-    dq-squared: your b contains dq_ds^2. It should contain d2q_ds2
+    a-and-b-exchanged: your code swaps `a` and `b`. The coefficient of sdd contains
+      `dq_ds`, and the coefficient of sd^2 contains `d2q_ds2`
+    g-first: your code returns `c` in the first row. Return the rows in the order `a`,
+      `b`, `c`
+    ddq-in-a: your code swaps `M @ dq_ds` and `M @ d2q_ds2`. The coefficient of sdd is
+      `M @ dq_ds`, because `qdd = dq_ds * sdd + d2q_ds2 * sd**2`
+    m-dq-twice: your code uses `M @ dq_ds` in `b`. Use `M @ d2q_ds2` instead
+    both-in-a: your code adds `M @ d2q_ds2` to `a`. Add this term to `b` instead,
+      because `b` is multiplied by sd^2
+    gravity-sign: your code returns `-gravity` as `c`. Return `gravity` itself, which is
+      the torque that holds the arm
+    gravity-forgotten: your code omits gravity, so the third row is 0. Return `gravity`
+      as the third row, `c`
+    coriolis-times-dq: your code multiplies the Coriolis torque by `dq_ds`. Use
+      `coriolis` unchanged, because it is already the torque at the velocity `dq_ds`
+    dq-squared: your code uses `dq_ds**2` in `b`. Use `d2q_ds2` instead
     solved: your code multiplies by the inverse of M. Multiply by M itself, because M
       maps accelerations to torques
-    coriolis-in-g: your code adds the Coriolis torque to c. Add it to b, because it is
-      multiplied by sd^2
-    coriolis-in-a: your code adds the Coriolis torque to `a`. Add it to b, because it is
-      multiplied by sd^2
-    rows-summed: your code multiplies the sum of each row of M by the entry of dq_ds or
-      d2q_ds2 for that joint. Use the matrix product with M instead
+    coriolis-in-g: your code adds the Coriolis torque to `c`. Add it to `b` instead,
+      because `b` is multiplied by sd^2
+    coriolis-in-a: your code adds the Coriolis torque to `a`. Add it to `b` instead,
+      because `b` is multiplied by sd^2
+    rows-summed: your code multiplies the sum of each row of M by the entry of `dq_ds`
+      or `d2q_ds2` for that joint. Use the matrix product with M instead
     trace: your code multiplies by the trace of M. Use the matrix product with M instead
     first-row: your code multiplies only the first row of M, entry by entry. Use the
       matrix product with M instead

@@ -168,11 +168,11 @@ OPTIONS = [
     Option("swap-when-it-failed", "your code swaps the trees only after a blocked "
                                   "sample. Swap the trees after every sample",
            {"turn": "failed"}),
-    Option("trees-not-swapped", "your code extends the start's tree with every "
-                                "sample. Samples 1, 3, 5 and so on should extend the "
-                                "goal's tree", {"turn": "never"}),
-    Option("goal-first", "your code extends the goal's tree with sample 0. Sample 0 "
-                         "should extend the start's tree", {"turn": "goal"}),
+    Option("trees-not-swapped", "your code extends the start's tree with every sample. "
+                                "Extend the goal's tree with samples 1, 3, 5 and so on",
+           {"turn": "never"}),
+    Option("goal-first", "your code extends the goal's tree with sample 0. Extend the "
+                         "start's tree with sample 0 instead", {"turn": "goal"}),
     Option("halves", "your code extends the start's tree with the first half of the "
                      "samples and the goal's tree with the second half. Alternate "
                      "after every sample",
@@ -187,30 +187,35 @@ OPTIONS = [
     Option("smaller-tree", "your code extends the smaller tree with each sample. "
                            "Alternate after every sample",
            {"turn": lambda k, used, nodes: int(len(nodes[1]) < len(nodes[0]))}),
-    Option("blocked-tries-the-other", "your other tree grows towards a blocked "
-                                      "sample. Continue with the next sample",
+    Option("blocked-tries-the-other", "your code extends the other tree towards a "
+                                      "blocked sample. Continue with the next sample "
+                                      "instead",
            {"blocked": "other"}),
     *(Option("few-samples", f"your code uses only the first {n} samples. Use all "
                             "samples",
              {"used": lambda some, n=n: some[:n]}) for n in (5, 10, 20)),
-    Option("connect-one-step", "your other tree adds only one edge. Add edges until "
-                               "one is blocked or the new node is reached",
+    Option("connect-one-step", "your code adds only one edge to the other tree. Add "
+                               "edges until an edge is blocked or the new node is "
+                               "reached",
            {"approach": "one"}),
-    Option("connect-to-the-sample", "your other tree grows towards the sample. It "
-                                    "should grow towards the new node",
+    Option("connect-to-the-sample", "your code extends the other tree towards the "
+                                    "sample. Extend it towards the new node instead",
            {"approach": "sample"}),
     Option("joined-at-the-sample", "your search ends when the other tree reaches the "
-                                   "sample. The first tree ends at its new node, so "
-                                   "the other tree should reach this node",
+                                   "sample. End it only when the other tree reaches "
+                                   "the new node of the first tree",
            {"approach": "sample", "meets": "sample"}),
-    Option("connect-to-the-root", "your other tree grows towards the root of the first "
-                                  "tree. It should grow towards the new node",
+    Option("connect-to-the-root", "your code extends the other tree towards the root "
+                                  "of the first tree. Extend it towards the new node "
+                                  "instead",
            {"approach": "root"}),
     Option("connect-in-one-jump", "your code connects the other tree by a single edge "
-                                  "of any length. Add edges of one step each",
+                                  "of any length. Add edges of at most one step "
+                                  "instead",
            {"approach": "jump"}),
-    *(Option("connect-few-edges", f"your other tree adds at most {n} edges. Add edges "
-                                  f"until one is blocked or the new node is reached",
+    *(Option("connect-few-edges", f"your code adds at most {n} edges to the other "
+                                  f"tree. Add edges until an edge is blocked or the "
+                                  f"new node is reached",
            {"tries": n})
       for n in (2, 3, 4, 5, 10)),
     Option("greedy-samples", "your code adds several edges towards the sample. Add "
@@ -222,15 +227,15 @@ OPTIONS = [
     Option("parent-is-the-root", "your code uses the root as the parent of each node. "
                                  "Use the index that `extend` returns",
 {"parent": "root"}),
-    Option("grows-from-the-newest", "your trees grow only from their newest nodes. "
-                                    "Pass all nodes to `extend`, which finds the "
+    Option("grows-from-the-newest", "your code extends each tree only from its newest "
+                                    "node. Pass all nodes to `extend`, which finds the "
                                     "nearest node",
            {"grows": "newest"}),
-    Option("not-checked", "your code adds nodes even if their edge is not free. Use "
-                          "the third result of `extend`",
+    Option("not-checked", "your code adds nodes even if their edge is not free. Add a "
+                          "node only if the third result of `extend` is True",
            {"free": True}),
-    Option("blocked-goes-on", "after a blocked sample, your other tree still grows "
-                              "towards the newest node. Continue with the next sample",
+    Option("blocked-goes-on", "your code extends the other tree even after a blocked "
+                              "sample. Continue with the next sample instead",
            {"blocked": "on"}),
     Option("blocked-ends", "your code stops at the first blocked sample. Continue with "
                            "the next sample", {"blocked": "stop"}),
@@ -238,15 +243,15 @@ OPTIONS = [
                           "each other. End it only when the other tree reaches the "
                           "new node",
            {"meets": "near"}),
-    *(Option("stride", f"your edges have a length of {x:g} steps. The length should "
-                       "be one step",
+    *(Option("stride", f"your code adds edges of {x:g} steps. Limit each edge to one "
+                       f"step",
            {"stride": x, "far": x})
       for x in (0.5, 2.0)),
-    *(Option("stride-of-the-other", f"the edges of your other tree have a length of "
-                                    f"{x:g} steps. The length should be one step",
+    *(Option("stride-of-the-other", f"your code adds edges of {x:g} steps to the other "
+                                    f"tree. Limit each edge to one step",
              {"far": x}) for x in (0.5, 2.0)),
-    *(Option("stride-of-the-first", f"your edges towards samples have a length of "
-                                    f"{x:g} steps. The length should be one step",
+    *(Option("stride-of-the-first", f"your code adds edges of {x:g} steps towards the "
+                                    f"samples. Limit each edge to one step",
              {"stride": x}) for x in (0.5, 2.0)),
     Option("every-other-sample", "your code uses only every second sample. Use all "
                                  "samples",
@@ -255,13 +260,13 @@ OPTIONS = [
                            "only one tree with each sample",
            {"used": lambda some: np.repeat(some, 2, axis=0)}),
     Option("samples-backwards", "your code uses the samples in reverse order. Start "
-                                "with sample 0",
+                                "with sample 0 instead",
            {"used": lambda some: some[::-1]}),
     Option("first-sample-left-out", "your code skips the first sample. Use all samples",
            {"used": lambda some: some[1:]}),
     Option("last-sample-left-out", "your code skips the last sample. Use all samples",
            {"used": lambda some: some[:-1]}),
-    Option("not-turned-round", "the start's branch of your path runs from the newest "
+    Option("not-turned-round", "your path contains the start's branch from the newest "
                                "node to the root. Reverse this branch",
            {"joined": lambda a, b: a + b[1:]}),
     Option("goal-branch-turned", "your code reverses the goal's branch. Keep its "
@@ -273,31 +278,33 @@ OPTIONS = [
                                  "which already runs from the meeting point to the "
                                  "goal",
            {"joined": lambda a, b: a[::-1] + b[::-1][1:]}),
-    Option("goal-to-start", "your path runs from the goal to the start. Reverse it",
+    Option("goal-to-start", "your code returns the path from the goal to the start. "
+                            "Reverse the path",
            {"joined": lambda a, b: b[::-1] + a[1:]}),
-    Option("goal-to-start-on-its-turn", "if a sample of the goal's tree completes the "
-                                        "path, your path runs from the goal to the "
-                                        "start. Reverse it", {"first": "turn"}),
-    Option("meeting-point-twice", "your path repeats the node at which the trees "
-                                  "meet. Include it once",
+    Option("goal-to-start-on-its-turn", "your code returns the path from the goal to "
+                                        "the start if a sample of the goal's tree "
+                                        "completes it. Reverse the path in this case",
+           {"first": "turn"}),
+    Option("meeting-point-twice", "your path contains the meeting node of the two "
+                                  "trees twice. Include this node once",
            {"joined": lambda a, b: a[::-1] + b}),
-    Option("meeting-point-lost", "your path does not contain the node at which the "
-                                 "trees meet. Include it once",
+    Option("meeting-point-lost", "your path does not contain the meeting node of the "
+                                 "two trees. Include this node once",
            {"joined": lambda a, b: [*a[:0:-1], *b[1:]]}),
-    Option("root-lost", "your path does not contain the start. It should begin at the "
-                        "start",
+    Option("root-lost", "your path does not contain the start. Include the start as "
+                        "the first waypoint",
            {"joined": lambda a, b: a[::-1][1:] + b[1:]}),
     Option("both-roots-lost", "your path contains neither the start nor the goal. "
                               "Include both",
            {"joined": lambda a, b: a[::-1][1:] + b[1:-1]}),
-    Option("goal-lost", "your path does not contain the goal. It should end at the "
-                        "goal",
+    Option("goal-lost", "your path does not contain the goal. Include the goal as the "
+                        "last waypoint",
            {"joined": lambda a, b: a[::-1] + b[1:-1]}),
-    Option("none-is-the-start", "if there is no path, your code returns the start. "
-                                "Return an array without rows",
+    Option("none-is-the-start", "your code returns the start if there is no path. "
+                                "Return an array without rows instead",
            {"none": lambda start, goal: np.array([start])}),
-    Option("none-is-straight", "if there is no path, your code returns the start and "
-                               "the goal. Return an array without rows",
+    Option("none-is-straight", "your code returns the start and the goal if there is "
+                               "no path. Return an array without rows instead",
            {"none": lambda start, goal: np.array([start, goal])}),
 ]  # fmt: skip
 

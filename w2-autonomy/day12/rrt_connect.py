@@ -111,35 +111,38 @@ def _(start, goal, world, samples, step):
       grow. Swap the trees after every sample
     swap-when-it-failed: your code swaps the trees only after a blocked sample. Swap the
       trees after every sample
-    trees-not-swapped: your code extends the start's tree with every sample. Samples 1,
-      3, 5 and so on should extend the goal's tree
-    goal-first: your code extends the goal's tree with sample 0. Sample 0 should extend
-      the start's tree
-    connect-one-step: your code adds only one edge to the other tree. Add edges until
-      one is blocked or the new node is reached
-    connect-to-the-sample: your other tree grows towards the sample. It should grow
-      towards the new node
+    trees-not-swapped: your code extends the start's tree with every sample. Extend the
+      goal's tree with samples 1, 3, 5 and so on
+    goal-first: your code extends the goal's tree with sample 0. Extend the start's tree
+      with sample 0 instead
+    connect-one-step: your code adds only one edge to the other tree. Add edges until an
+      edge is blocked or the new node is reached
+    connect-to-the-sample: your code extends the other tree towards the sample. Extend
+      it towards the new node instead
     greedy-samples: your code adds several edges towards the sample. Add only one edge
-    one-tree: your code grows only the start's tree and tests the edge from each new
-      node to the goal. Grow two trees
+    one-tree: your code extends only the start's tree and tests the edge from each new
+      node to the goal. Extend a second tree from the goal
     connect-in-one-jump: your code connects the other tree by a single edge of any
-      length. Add edges of one step each
-    parent-is-the-newest: your path contains every node of both trees. The parent of a
-      node is the node from which it grew, so use the index that `extend` returns
-    not-turned-round: the start's branch of your path runs from the newest node to the
+      length. Add edges of at most one step instead
+    parent-is-the-newest: your path contains every node of both trees. Store the index
+      that `extend` returns as the parent of each new node
+    not-turned-round: your path contains the start's branch from the newest node to the
       root. Reverse this branch
-    goal-to-start: your path runs from the goal to the start. Reverse it
+    goal-to-start: your code returns the path from the goal to the start. Reverse the
+      path
     half-the-path: your code returns only the start's branch. Append the goal's branch
     half-the-path 2: your code returns only the goal's branch. Put the start's branch
-      before this branch
-    not-checked: your code adds nodes even if their edge is not free. Use the third
-      result of `extend`
-    meeting-point-twice: your path repeats the node at which the trees meet. Include it
-      once
-    meeting-point-lost: your path does not contain the node at which the trees meet.
-      Include it once
-    goal-lost: your path does not contain the goal. It should end at the goal
-    start-lost: your path does not contain the start. It should begin at the start
+      before the goal's branch
+    not-checked: your code adds nodes even if their edge is not free. Add a node only if
+      the third result of `extend` is True
+    meeting-point-twice: your path contains the meeting node of the two trees twice.
+      Include this node once
+    meeting-point-lost: your path does not contain the meeting node of the two trees.
+      Include this node once
+    goal-lost: your path does not contain the goal. Include the goal as the last
+      waypoint
+    start-lost: your path does not contain the start. Include the start as the first
+      waypoint
     ends-only: your path contains only the start and the goal. Include the nodes of both
       branches
     first-sample-left-out: your code skips the first sample. Use all samples

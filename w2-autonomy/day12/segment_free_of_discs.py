@@ -214,15 +214,15 @@ def _(a, b, discs):
     """line-for-segment: your code does not clamp the parameter of the nearest point.
       Clamp it to [0, 1], because otherwise a disc beyond an end of the edge blocks the
       edge
-    only-one-end-cut: your code clamps the parameter of the nearest point only at 1.
-      Clamp it at 0 as well, because the edge begins at `a`
-    only-one-end-cut 2: your code clamps the parameter of the nearest point only at 0.
-      Clamp it at 1 as well, because the edge ends at `b`
-    ends-only: your code tests only the two ends. Test the whole edge, because the edge
-      can cross a disc between its ends
+    only-one-end-cut: your code clamps the parameter of the nearest point at 1, but not
+      at 0. Clamp it to [0, 1], because the edge begins at `a`
+    only-one-end-cut 2: your code clamps the parameter of the nearest point at 0, but
+      not at 1. Clamp it to [0, 1], because the edge ends at `b`
+    ends-only: your code tests only the two ends of the edge. Test the whole edge,
+      because the edge can cross a disc between its ends
     new-end-only: your code tests only the end `b`. Test the whole edge
     start-only: your code tests only the start `a`. Test the whole edge
-    middle-only: your code tests only the midpoint. Test the whole edge
+    middle-only: your code tests only the midpoint of the edge. Test the whole edge
     points-only: your code tests only some points of the edge. Use the point of the edge
       nearest to the centre, because a small disc can lie between two tested points
     points-only 2: your code tests only some points of the edge. Use the point of the
@@ -235,26 +235,27 @@ def _(a, b, discs):
       Compute the nearest point of the edge exactly
     points-only 6: your code misses discs that cover only a small part of the edge.
       Compute the nearest point of the edge exactly
-    inside-is-free: your code reports an edge inside a disc as free, because the edge
-      does not cross the circle. It should be blocked, because the inside of a disc is
-      blocked too
-    inside-is-free 2: your code reports an edge or a point inside a disc as free,
-      because neither crosses the circle. It should be blocked, because the inside of a
-      disc is blocked too
-    inner-only: your code skips a disc whose nearest point lies beyond an end of the
-      edge. Test the distance of the end itself, because the end can lie in the disc
-    inner-only 2: your code skips a disc whose nearest point lies beyond an end, unless
-      the edge is a point. Test the distance of the end itself, because the end can lie
-      in the disc
-    first-disc-only: your code tests only the first disc. The edge must miss every disc
+    inside-is-free: your code tests only whether the edge crosses the circle. Report an
+      edge inside a disc as blocked too, because the whole disc is an obstacle
+    inside-is-free 2: your code tests only whether the edge crosses the circle. Report
+      an edge or a point inside a disc as blocked too, because the whole disc is an
+      obstacle
+    inner-only: your code skips a disc if the nearest point of the line lies beyond an
+      end of the edge. Test the distance of this end, because the end can lie in the
+      disc
+    inner-only 2: your code skips a disc if the nearest point of the line lies beyond an
+      end, unless the edge is a point. Test the distance of this end, because the end
+      can lie in the disc
+    first-disc-only: your code tests only the first disc. Test every disc, because the
+      edge must miss all of them
     last-disc-only: your code tests only the last disc. Does a loop return too early or
       overwrite the result?
     nearest-centre: your code tests only the disc with the nearest centre. Test every
       disc, because a disc farther away can be larger
     all-must-hit: your code reports the edge as free as soon as it misses one disc.
       Report it as free only if it misses every disc
-    all-must-hit 2: your code reports the edge as free only if the edge misses at least
-      one disc. Report it as free if it misses every disc, and also if there is no disc
+    all-must-hit 2: your code reports the edge as free only if it misses at least one
+      disc. Report it as free if it misses every disc, and also if there is no disc
     squared-for-plain: your code compares the squared distance with the radius. Compare
       it with the squared radius instead
     plain-for-squared: your code compares the distance with the squared radius. Compare
@@ -263,41 +264,40 @@ def _(a, b, discs):
       radius itself, which is the third number of a disc
     half-the-radius: your code compares the distance with half of the radius. Compare it
       with the radius itself, which is the third number of a disc
-    radius-forgotten: your code does not use the radius, so it treats the discs as
-      points. Compare the distance with the radius
+    radius-forgotten: your code omits the radius, so it treats the discs as points.
+      Compare the distance with the radius
     not-divided: your code does not divide the parameter of the nearest point by the
-      squared length of the edge. Divide it, so that the parameter is 1 at `b`
+      squared length of the edge. Divide it, because the parameter must be 1 at `b`
     divided-by-the-length: your code divides the parameter of the nearest point by the
       length of the edge. Divide it by the squared length instead
-    touching-is-free: your code reports an edge that touches a disc as free. It should
-      be blocked
-    from-the-origin: your code projects the centre itself onto the edge. First subtract
-      `a` from the centre
+    touching-is-free: your code reports an edge that touches a disc as free. Report such
+      an edge as blocked
+    from-the-origin: your code projects the centre itself onto the edge. Subtract `a`
+      from the centre before the projection
     other-way: your code measures the parameter from one end of the edge, but it applies
-      the parameter from the other end. Use the same end for both
+      the parameter from the other end. Use the same end for both steps
     box: your code treats the discs as squares, because it compares each coordinate
       separately. Use the Euclidean distance instead
-    foot-without-a: your nearest point omits the start `a`. Add `a`
+    foot-without-a: your code omits the start `a` in the nearest point. Add `a`
     cut-to-one: your code clamps a length along the edge to [0, 1]. Clamp it to the
       length of the edge instead
-    length-for-share: your code multiplies a length along the edge by b - a. Multiply it
-      by the unit vector, or divide it by the length of the edge
-    distance-to-the-start: your code uses the distance to `a` beyond the end `b`. Use
-      the distance to `b`, which is the nearest point
+    length-for-share: your code multiplies a length along the edge by b - a. Multiply
+      the length by the unit vector instead
+    distance-to-the-start: your code uses the distance to `a` for a disc beyond the end
+      `b`. Use the distance to `b` instead, because `b` is the nearest point
     first-crossing-only: your code tests only the first crossing of the circle. Test the
       second crossing too, because an edge that starts in a disc has only this one
     some-crossing: your code tests whether the infinite line meets the circle. Use the
-      nearest point of the edge, because both crossings can lie beyond an end of the
-      edge
+      nearest point of the edge instead, because both crossings can lie beyond an end
     boxes-overlap: your code tests whether the bounding boxes of the edge and the disc
       overlap. Use the distance instead, because the edge can cross the box and still
       miss the disc
-    x-and-y-exchanged: your code swaps x and y of the centres. Each disc is (x, y,
-      radius)
-    no-disc-is-hit: if there is no disc, your code reports a blocked edge. Report the
+    x-and-y-exchanged: your code swaps the x and y coordinates of the centres. Each disc
+      is (x, y, radius)
+    no-disc-is-hit: your code reports a blocked edge if there is no disc. Report the
       edge as free
     touching-between: your code reports an edge that touches a disc between its ends as
-      free. It should be blocked
+      free. Report such an edge as blocked
     points-only 7: your code misses discs that cover only a small part of the edge.
       Compute the nearest point of the edge exactly
     points-only 8: your code tests only some points of the edge. Use the point of the

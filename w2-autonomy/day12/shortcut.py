@@ -123,44 +123,46 @@ def _(path, world, pairs, answer):
 
 @row.wrongs
 def _(path, world, pairs):
-    """not-checked: your code removes points without testing the new edge. Remove them
-      only if this edge is free
-    one-node-short: your code removes point j too. Keep it, because the tested edge ends
-      at point j
-    one-node-short 2: your code removes point i too. Keep it, because the tested edge
-      begins at point i
-    one-too-many: your code keeps the point before j. Remove all points between i and j
-    end-lost: each of your shortcuts also removes the last point of the path. Keep the
-      last point
+    """not-checked: your code removes rows without testing the new edge. Remove the rows
+      only if the new edge is free
+    one-node-short: your code also removes row j. Keep row j, because the tested edge
+      ends there
+    one-node-short 2: your code also removes row i. Keep row i, because the tested edge
+      begins there
+    one-too-many: your code keeps the row before j. Remove all rows between i and j
+    end-lost: your code removes the last row of the path with each shortcut. Keep the
+      last row
     first-cut-only: your code stops after the first shortcut. Try all pairs
     indices-of-the-first-path: your code takes the two rows of each pair from the
       original path. Use the rows of the current path instead
     indices-of-the-first-path 2: your code computes the indices with the length of the
       original path, but it uses them in the current path. Use the length of the current
       path instead
-    not-sorted: your code skips a pair if its first row is the larger one. Sort the two
-      rows
-    rounded: your code rounds u m to the nearest integer. Use int() instead, which
-      rounds down
-    rounded 2: your code rounds u (m - 1). Use int(u m), which gives every row the same
-      probability
-    of-m-minus-one: your code multiplies u by m - 1. Use int(u m), which gives every row
-      the same probability
-    neighbours-too: your code also removes row i, and it does so even if the two rows
-      are neighbours. Keep row i, and leave neighbouring rows unchanged
+    not-sorted: your code skips a pair if its first row is the later one. Sort the two
+      rows instead
+    rounded: your code rounds u m to the nearest integer. Use `int(u * m)` instead,
+      which rounds down
+    rounded 2: your code rounds u (m - 1) to the nearest integer. Use `int(u * m)`
+      instead, which gives every row the same probability
+    of-m-minus-one: your code multiplies u by m - 1. Use `int(u * m)` instead, which
+      gives every row the same probability
+    neighbours-too: your code also removes row i, even if the two rows are neighbours.
+      Keep row i, and leave neighbouring rows unchanged
     two-apart-left: your code skips rows that are two apart. Test these rows too,
-      because the point between them can be removed
-    hit-for-free: your code inverts the test, so it applies shortcuts that are blocked.
-      Apply a shortcut if its edge is free
+      because the row between them can be removed
+    hit-for-free: your code inverts the test, so it applies shortcuts whose edge is
+      blocked. Apply a shortcut only if its edge is free
     unchanged: your code returns the original path. Apply each shortcut whose edge is
       free
-    all-but-the-ends: your code returns only the start and the end. Keep the other
-      points of the path
-    only-the-ends-checked: your code tests only the points i and j. Test the edge
-      between these points
-    middle-checked: your code tests only the midpoint of the edge. Test the whole edge
-    reversed: your path runs from its end to its start. Keep the order of the waypoints
-    ends-at-i: your code returns only the path up to i. Append the path from j on
+    all-but-the-ends: your code returns only the start and the end of the path. Keep the
+      rows that no free shortcut removes
+    only-the-ends-checked: your code tests only the two ends of the new edge. Test the
+      whole edge between rows i and j
+    middle-checked: your code tests only the midpoint of the new edge. Test the whole
+      edge
+    reversed: your code reverses the path. Keep the order of the waypoints
+    ends-at-i: your code returns only the path up to row i. Append the path from row j
+      on
     """
     none = np.empty((0, 2))
 

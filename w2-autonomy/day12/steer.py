@@ -78,55 +78,60 @@ def _(rng):
 
 @row.wrongs
 def _(q, target, step):
-    """overshoots: your code takes a full step even if the target is nearer. Stop at the
-      target
-    no-limit: your code returns the target at any distance. Limit the motion to one step
+    """overshoots: your code takes a full step even if the target is nearer than one
+      step. Stop at the target
+    no-limit: your code returns the target at any distance. Limit the displacement to
+      one step
     fraction: your code multiplies the displacement by `step`. Divide the displacement
       by its norm first, because `step` is a length and not a fraction
-    fraction-at-most-all: your code multiplies the displacement by `step`, or by 1 if
-      `step` is larger. Use `step` as a length: divide the displacement by its norm
-      first
+    fraction-at-most-all: your code multiplies the displacement by the smaller of `step`
+      and 1. Divide the displacement by its norm first, because `step` is a length and
+      not a fraction
     not-unit: your code does not divide the displacement to a far target by its norm.
-      Divide it, so that the norm of your step equals `step`
-    squared: your code divides the displacement by its squared norm. Divide it by the
-      norm instead
-    from-the-target: your code subtracts the step from the target. Start at q instead
-    from-the-target 2: your code adds the step to the target. Start at q instead
-    direction-only: your code returns the displacement. Add the displacement to q
-    direction-only 2: your code returns the displacement, limited to one step. Add the
+      Divide it before you multiply it by `step`, because `step` is a length
+    squared: your code divides the displacement by its squared norm. Divide the
+      displacement by its norm instead
+    from-the-target: your code subtracts the step from the target. Add the step to q
+      instead
+    from-the-target 2: your code adds the step to the target. Add the step to q instead
+    direction-only: your code returns the displacement from q to the target. Add the
       displacement to q
-    away: your point moves away from the target. The direction should be target - q
-    away 2: if the target is far, your point moves away from the target. The direction
-      should be target - q
-    stays-when-near: if the target is within one step, your code returns q. Return the
+    direction-only 2: your code returns the displacement of one step. Add the
+      displacement to q
+    away: your code moves away from the target. Use target - q as the direction
+    away 2: your code moves away from a target that is farther than one step. Use target
+      - q as the direction
+    stays-when-near: your code returns q if the target is within one step. Return the
       target instead
-    always-q: your code always returns q. It should move one step towards the target
-    largest-coordinate: your code uses the largest difference in one coordinate as the
+    always-q: your code always returns q. Move from q towards the target, but at most
+      one step
+    largest-coordinate: your code uses the largest absolute coordinate difference as the
       distance. Use the Euclidean norm instead
-    largest-coordinate 2: your code limits each coordinate to a step. Limit the norm of
-      the displacement
-    sum-of-sizes: your code uses the sum of the absolute differences as the distance.
-      Use the Euclidean norm instead
-    unit-step: your displacement has norm 1. Its norm should be equal to the argument
-      `step`
-    half-a-step: your displacement is only half a step. Use the whole step
-    limit-the-other-way: your code swaps the two cases. Return the target if it is near,
-      and take a full step if it is far
-    from-the-origin: your step starts at the origin. Start at q instead
-    square-compared: your code compares the squared distance with the step. Compare the
-      distance itself
+    largest-coordinate 2: your code clamps each coordinate of the displacement to one
+      step. Limit the norm of the displacement instead
+    sum-of-sizes: your code uses the sum of the absolute coordinate differences as the
+      distance. Use the Euclidean norm instead
+    unit-step: your code adds a displacement of norm 1 to q. Use the argument `step` as
+      the norm instead
+    half-a-step: your code moves only half a step. Use the whole step
+    limit-the-other-way: your code swaps the two cases. Return the target if it is
+      within one step, and take a full step otherwise
+    from-the-origin: your code starts the step at the origin. Start the step at q
+      instead
+    square-compared: your code compares the squared distance with `step`. Compare the
+      distance itself instead
     two-coordinates: your code uses only the first two coordinates for the distance. Use
       all coordinates
-    root-of-the-mean: your code takes the root of the mean of the squares. Take the root
-      of the sum of the squares instead
+    root-of-the-mean: your code divides the sum of the squares by the number of
+      coordinates before it takes the root. Omit this division
     length-of-the-target: your code divides the displacement by the norm of the target.
       Divide it by the norm of target - q instead
     direction-from-the-origin: your code uses the direction from the origin to the
       target. Use the direction from q to the target instead
-    stops-half-way: if the target is near, your code goes only half of the distance.
-      Return the target
-    step-on-each-coordinate: if the target is far, your code changes each coordinate by
-      a full step. The norm of the displacement should be one step
+    stops-half-way: your code covers only half of the distance to a target within one
+      step. Return the target
+    step-on-each-coordinate: your code changes each coordinate by a full step if the
+      target is far. Use a displacement whose norm is one step instead
     """
     way = target - q
     far = np.linalg.norm(way)

@@ -114,48 +114,49 @@ def _(a, b, c, limits, sd2_max):
       Add a backward pass that begins with sd^2 = 0 at the last point
     no-braking 2: your code has no backward pass, so the motion stops abruptly at the
       end. Add a backward pass that begins with sd^2 = 0 at the last point
-    end-not-at-rest: your backward pass starts with sd2_max at the end. Start with sd^2
-      = 0 instead
-    start-not-at-rest: your motion starts with the largest sd^2 from which it can stop.
-      Start with sd^2 = 0 instead
+    end-not-at-rest: your code starts the backward pass with `sd2_max` at the end. Start
+      it with sd^2 = 0 instead
+    start-not-at-rest: your code starts the motion with the largest sd^2 from which the
+      arm can stop. Start it with sd^2 = 0 instead
     backward-pass-only: your code has no forward pass, so the motion does not start at
       rest. Add a forward pass that begins with sd^2 = 0 at the first point
     backward-pass-only 2: your code has no forward pass, so sd^2 jumps from 0 to its
       maximum. Add a forward pass that begins with sd^2 = 0 at the first point
     smaller-of-two-passes: your code computes the two passes independently and takes the
-      minimum. The forward pass should stay below the result of the backward pass
-    ds-for-2-ds: your sd^2 grows by ds sdd in a step. It should grow by 2 ds sdd
-    four-ds: your sd^2 grows by 4 ds sdd in a step. It should grow by 2 ds sdd
-    points-for-steps: your ds is 1 / (N + 1). The N + 1 points have N steps between
-      them, so ds should be 1 / N
-    sd-for-sd2: your code calls `path_accel_bounds` with sd^2. Its argument should be sd
+      minimum. Limit sd^2 in the forward pass by the result of the backward pass instead
+    ds-for-2-ds: your code adds ds sdd to sd^2 in each step. Add 2 ds sdd instead
+    four-ds: your code adds 4 ds sdd to sd^2 in each step. Add 2 ds sdd instead
+    points-for-steps: your code uses ds = 1 / (N + 1). Use ds = 1 / N, because N + 1
+      points have N steps between them
+    sd-for-sd2: your code calls `path_accel_bounds` with sd^2. Pass sd instead
     sd-for-sd2 2: your code calls `path_accel_bounds` with sd^2 in the backward pass.
-      Its argument should be sd
-    sd-for-sd2 3: your code calls `path_accel_bounds` with sd^2 in the forward pass. Its
-      argument should be sd
+      Pass sd instead
+    sd-for-sd2 3: your code calls `path_accel_bounds` with sd^2 in the forward pass.
+      Pass sd instead
     most-of-the-point-before: your code limits sd^2 at i + 1 by the maximum at i in the
       forward pass. Use the maximum at i + 1 instead
-    no-speed-limit: your code does not use sd2_max. Limit sd^2 to sd2_max in both
-      passes, because the speed of the motors is limited
-    speed-limit-forwards-only: your code clamps sd^2 to sd2_max only after the two
-      passes. Use sd2_max inside both passes, so that the motion can slow down in time
-    gravity-forgotten: your code omits gravity in the torques. Include the term c
-    coriolis-forgotten: your code omits b sd^2 in the torques. Include this term
+    no-speed-limit: your code omits `sd2_max`. Limit sd^2 to `sd2_max` in both passes,
+      because the joint velocities are limited
+    speed-limit-forwards-only: your code clamps sd^2 to `sd2_max` only after the two
+      passes. Use `sd2_max` inside both passes, because the motion must slow down before
+      such a point
+    gravity-forgotten: your code omits gravity in the torques. Include the term `c`
+    coriolis-forgotten: your code omits `b * sd**2` in the torques. Include this term
     cannot-stand-goes: your code returns a nonzero motion although gravity alone exceeds
-      a torque limit. The arm cannot stay at rest at such a point, so return zeros
+      a torque limit. Return zeros, because the arm cannot stay at rest at such a point
     few-bisections: your bisection stops too early, so its result is not accurate
       enough. Halve the interval more often
     few-bisections 2: your bisection stops too early, so its result is not accurate
       enough. Halve the interval more often
     limits-of-the-next-point: your code computes the bounds on sdd at the end of each
-      step. Compute the bounds at the first point of the step
+      step. Compute them at the first point of the step instead
     bobrow: your code computes the bounds on sdd at the end of each step in the backward
-      pass. Compute the bounds at the first point of the step
+      pass. Compute them at the first point of the step instead
     root: your code returns sd. Return sd^2 instead
-    times: your code returns the time of each point. Return sd^2 instead
+    times: your code returns the time at each point. Return sd^2 instead
     half-the-torque: your code uses only half of each torque limit. Use the whole limit
-    never-moves: your sd^2 is 0 at every point. Check the result of the backward pass,
-      and whether the forward pass uses the largest sdd
+    never-moves: your code returns sd^2 = 0 at every point. Does the backward pass
+      return only zeros, or does the forward pass use the smallest sdd?
     accelerations: your code returns the sdd of each step. Return sd^2 instead
     """
     given = (a, b, c, limits, sd2_max)

@@ -63,63 +63,68 @@ def _(rng):
 
 @row.wrongs
 def _(successes, n):
-    """wald: your function returns the Wald interval, p +- z sqrt(p (1 - p) / n). Its
-      width is 0 for k = 0 and for k = n, so use the Wilson interval
-    wald-cut: your function returns the Wald interval, clamped to [0, 1]. The width of
-      this interval is 0 for k = 0 and for k = n, so use the Wilson interval
-    centre-not-moved: your centre omits the term z^2 / (2 n). Add it to k / n before you
-      divide by 1 + z^2 / n
-    width-without-z2: your code omits the term z^2 / (4 n^2) under the root. Add it, so
-      that the width is above 0 even for k = 0
+    """wald: your code returns the Wald interval, p +- z sqrt(p (1 - p) / n). Use the
+      Wilson interval instead, because the width of a Wald interval is 0 for k = 0 and k
+      = n
+    wald-cut: your code returns the Wald interval, clamped to [0, 1]. Use the Wilson
+      interval instead, because the width of a Wald interval is 0 for k = 0 and k = n
+    centre-not-moved: your code omits the term z^2 / (2 n) in the centre. Add it to k /
+      n before the division by 1 + z^2 / n
+    width-without-z2: your code omits the term z^2 / (4 n^2) under the root. Add it,
+      because the width should be above 0 even for k = 0
     not-divided: your code does not divide the centre and the half-width by 1 + z^2 / n.
       Divide both by this factor
     middle-not-divided: your code divides only the half-width by 1 + z^2 / n. Divide the
-      centre too
+      centre by it too
     width-not-divided: your code divides only the centre by 1 + z^2 / n. Divide the
-      half-width too
+      half-width by it too
     root-n-forgotten: your code does not divide p (1 - p) by n. Divide it, because more
       trials should make the interval narrower
-    ninety: your z is 1.645, which gives a 90 % interval. Use 1.96 instead
-    ninety-without-z2: your z is 1.645 instead of 1.96, and your code omits the term z^2
-      / (4 n^2) under the root. Use 1.96, and add this term => both
-    two-sigma: your z is 2. Use 1.96 instead
-    one-sigma: your z is 1, which gives a 68 % interval. Use 1.96 instead
-    ninety-nine: your z is 2.576, which gives a 99 % interval. Use 1.96 instead
-    more-digits: your z is 1.959964, which is more exact than 1.96. Use 1.96, as in the
-      task, so that all results agree
+    ninety: your code uses z = 1.645, which gives a 90 % interval. Use z = 1.96 for a 95
+      % interval
+    ninety-without-z2: your code uses z = 1.645 instead of 1.96, and it omits the term
+      z^2 / (4 n^2) under the root. Use z = 1.96, and add this term => both
+    two-sigma: your code uses z = 2. Use z = 1.96 for a 95 % interval
+    one-sigma: your code uses z = 1, which gives a 68 % interval. Use z = 1.96 for a 95
+      % interval
+    ninety-nine: your code uses z = 2.576, which gives a 99 % interval. Use z = 1.96 for
+      a 95 % interval
+    more-digits: your code uses z = 1.959964, which is more exact than 1.96. Use z =
+      1.96, as the task specifies
     z-for-z2: your code uses z instead of z^2 in the centre and in the denominator. Use
       z^2 in both
-    two-n: your centre contains z^2 / n. It should contain z^2 / (2 n)
-    four-forgotten: your root contains z^2 / n^2. It should contain z^2 / (4 n^2)
-    n-for-n2: your root contains z^2 / (4 n). It should contain z^2 / (4 n^2)
-    successes-for-p: your centre contains k instead of the proportion k / n. Divide k by
-      n
-    failures: your code returns the interval for the failures, n - k. Return the
-      interval for the successes instead
-    high-first: your upper end comes first. Return the lower end first
-    high-first 2: for n > 0, your upper end comes first. Return the lower end first
+    two-n: your code adds z^2 / n to k / n in the centre. Add z^2 / (2 n) instead
+    four-forgotten: your code adds z^2 / n^2 under the root. Add z^2 / (4 n^2) instead
+    n-for-n2: your code adds z^2 / (4 n) under the root. Add z^2 / (4 n^2) instead
+    successes-for-p: your code uses k instead of the proportion k / n in the centre.
+      Divide k by n
+    failures: your code returns the interval for the n - k failures. Return the interval
+      for the successes instead
+    high-first: your code returns the upper end first. Return the lower end first
+    high-first 2: for n > 0, your code returns the upper end first. Return the lower end
+      first
     middle-and-width: your code returns the centre and the half-width. Return the two
       ends instead
-    rule-of-three: your upper end for k = 0 is 3 / n, as in the rule of three. Use the
-      Wilson interval for k = 0 too
-    rule-of-three 2: your ends for k = 0 and k = n are 3 / n and 1 - 3 / n, as in the
-      rule of three. Use the Wilson interval for these cases too
-    rule-of-three 3: your ends for k = 0 and k = n are 3 / n and 1 - 3 / n, as in the
-      rule of three. Use the Wilson interval for these cases too
+    rule-of-three: for k = 0, your code returns 3 / n as the upper end (the rule of
+      three). Use the Wilson interval for k = 0 too
+    rule-of-three 2: for k = 0 and k = n, your code uses the rule of three, with the
+      ends 3 / n and 1 - 3 / n. Use the Wilson interval for these cases too
+    rule-of-three 3: for k = 0 and k = n, your code uses the rule of three, with the
+      ends 3 / n and 1 - 3 / n. Use the Wilson interval for these cases too
     plus-four: your code uses the Wald interval with p = (k + 2) / (n + 4) (Agresti and
       Coull). Use the Wilson interval instead
     plus-four 2: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
       n + z^2 trials (Agresti and Coull). Use the Wilson interval instead
     plus-four 3: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
       n + z^2 trials (Agresti and Coull). Use the Wilson interval instead
-    one-more: your p is (k + 1) / (n + 2), with one success and one failure added. Use k
-      / n instead
-    quadratic-sign: your quadratic equation for p has the coefficient -2 k / n + z^2 /
-      n. It should be -(2 k / n + z^2 / n)
-    quadratic-z2: your quadratic equation for p has the coefficient -(2 k / n + z^2). It
-      should be -(2 k / n + z^2 / n)
-    half-width: your interval is half as wide as it should be. Add and subtract the
-      whole half-width
+    one-more: your code uses p = (k + 1) / (n + 2), which adds one success and one
+      failure. Use p = k / n instead
+    quadratic-sign: your code uses the coefficient -2 k / n + z^2 / n in the quadratic
+      equation for p. Use -(2 k / n + z^2 / n) instead
+    quadratic-z2: your code uses the coefficient -(2 k / n + z^2) in the quadratic
+      equation for p. Use -(2 k / n + z^2 / n) instead
+    half-width: your code returns an interval that is half as wide as the Wilson
+      interval. Add and subtract the whole half-width
     one-is-none: for n = 1, your code returns (0, 1). Use the formula, because only n =
       0 is a special case
     """

@@ -19,34 +19,35 @@ def _(rng):
 
 @row.wrongs
 def _(H, f, lo, hi, x):
-    """sign: your multipliers have the wrong sign. Each multiplier should be the
-      corresponding entry of the gradient, because the cost rises if a bound moves along
-      the gradient
-    absolute: your code takes the absolute values of the multipliers. The multiplier of
-      an upper bound should be negative, because the cost falls if this bound moves up
-    upper-only: your code returns nonzero multipliers only for the upper bounds. A lower
-      bound that holds an entry has a nonzero multiplier too
-    lower-only: your code returns nonzero multipliers only for the lower bounds. An
-      upper bound that holds an entry has a nonzero multiplier too
-    no-price: your multipliers of the held entries are 0. The multiplier of a held entry
-      should be the corresponding entry of the gradient
-    largest-only: your code returns only the largest multiplier. Each held entry should
-      have its own multiplier
-    first-limit-only: your code returns a multiplier only for the first held entry. Each
-      held entry should have its own multiplier
+    """sign: your code negates the multipliers. Return the entries of the gradient,
+      because the cost rises if a bound moves along the gradient
+    absolute: your code takes the absolute values of the multipliers. Keep the signs,
+      because the cost falls if an upper bound moves up
+    upper-only: your code returns multipliers only for the upper bounds. Return them for
+      the lower bounds that hold an entry too
+    lower-only: your code returns multipliers only for the lower bounds. Return them for
+      the upper bounds that hold an entry too
+    no-price: your code returns 0 for the held entries. Return the corresponding entry
+      of the gradient for each held entry
+    largest-only: your code returns only the largest multiplier. Return a multiplier for
+      each held entry
+    first-limit-only: your code returns a multiplier only for the first held entry.
+      Return a multiplier for each held entry
     times-the-width: your code multiplies the gradient by the distance between the
-      bounds. The multiplier should be the change in the minimum cost per unit of
-      movement of the bound
-    lower-sign: your multipliers of the lower bounds have the wrong sign. Each
-      multiplier should be the corresponding entry of the gradient
-    g-forgotten: your gradient omits f. It should be H x + f
-    H-halved: your gradient is H x / 2 + f. The gradient of x . H x / 2 is H x
-    H-doubled: your gradient is 2 H x + f. The gradient of x . H x / 2 is H x
-    divided-by-H: your code divides the gradient by the diagonal of H, which gives a
-      distance. Return the gradient itself
-    how-far: your result is the distance to the unconstrained minimiser. The multiplier
-      should be the change in the minimum cost per unit of movement of the bound
-    one-each: your result contains only the sign of each multiplier. Return the entry of
+      bounds. Return the gradient itself, which is the change in cost per unit of the
+      bound
+    lower-sign: your code negates the multipliers of the lower bounds. Return the
+      corresponding entries of the gradient
+    g-forgotten: your code omits f in the gradient. Use H x + f
+    H-halved: your code uses H x / 2 + f as the gradient. Use H x + f, because the
+      gradient of x . H x / 2 is H x
+    H-doubled: your code uses 2 H x + f as the gradient. Use H x + f, because the
+      gradient of x . H x / 2 is H x
+    divided-by-H: your code divides the gradient by the diagonal of H. Return the
+      gradient itself, which is the change in cost per unit of the bound
+    how-far: your code returns the difference between x and the unconstrained minimiser.
+      Return the gradient instead, which is the change in cost per unit of the bound
+    one-each: your code returns only the sign of each multiplier. Return the entry of
       the gradient itself
     """
     slope = H @ x + f

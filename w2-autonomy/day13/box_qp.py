@@ -233,73 +233,70 @@ def held_for_good(H, f, lo, hi, x, own=True):
 
 @row.wrongs(hidden={"stops-too-early": "no held entry of the lab moves so little"})
 def _(H, f, lo, hi, x):
-    """clip-the-optimum: your result is the unconstrained minimiser, clamped to the
-      bounds. If one entry is held at a bound, the optimal values of the other entries
-      change, so solve for them again
-    no-limits: your result is the unconstrained minimiser -H^-1 f. Return the minimiser
-      within the bounds instead
+    """clip-the-optimum: your code clamps the unconstrained minimiser to the bounds.
+      Solve again for the other entries, because their optimal values change if one
+      entry is held at a bound
+    no-limits: your code returns the unconstrained minimiser -H^-1 f. Return the
+      minimiser within the bounds instead
     scaled-back: your code stops at the first bound on the way to the unconstrained
       minimiser. Hold the entry at this bound, and continue with the other entries
-    solved-once-more: your code clamps the unconstrained minimiser and then solves for
-      the free entries only once. Another entry may then violate a bound, or a held
-      entry may have to be released, so repeat this step
-    clipped-for-good: your code solves for the free entries until all are within the
-      bounds, but it never releases a clamped entry. Release an entry if its negative
-      gradient points away from its bound
-    held-for-good: your code never releases an entry that has reached a bound, or it
-      releases the wrong one. Release an entry if its negative gradient points away from
-      its bound
-    steepest-let-go: your code releases the held entry with the largest gradient,
-      whatever its sign. Release the entry that the clamped step of task 13.4 moves most
-    all-let-go: your code releases all held entries at once, so they can reach the same
-      bounds again. Release only the entry that would move most
-    stops-too-early: your loop ends although a held entry would still move by up to
-      1e-4. Use a smaller tolerance instead
+    solved-once-more: your code clamps the unconstrained minimiser and solves for the
+      free entries only once. Repeat this step, because another entry may then violate a
+      bound
+    clipped-for-good: your code never releases an entry that it has clamped. Release an
+      entry if its negative gradient points into the box
+    held-for-good: your code never releases an entry that is held at a bound, or it
+      releases the wrong entry. Release an entry if its negative gradient points into
+      the box
+    steepest-let-go: your code releases the held entry with the largest absolute
+      gradient. Release the entry that the clamped step of task 13.4 moves most
+    all-let-go: your code releases all held entries in the same iteration, so they can
+      return to the same bounds. Release only the entry that would move most
+    stops-too-early: your code stops although a held entry would still move by up to
+      1e-4. Use a smaller tolerance
     few-rounds: your code stops after ten iterations, which is not enough for some
-      problems. Repeat until no held entry has to be released
-    upper-limits-passed: your step can violate the upper bounds. Stop the step at the
-      first bound that it reaches
+      problems. Continue until no held entry has to be released
+    upper-limits-passed: your code takes steps that violate the upper bounds. End each
+      step at the first bound that it meets
     held-by-place: your code holds every entry that is at a bound. Release an entry if
-      its negative gradient points away from its bound
-    frees-the-wrong-ones: your code holds the wrong entries. Hold an entry at a bound if
-      its negative gradient points out of the box
-    held-left-out: your right-hand side for the free entries leaves out the held
+      its negative gradient points into the box
+    frees-the-wrong-ones: your code holds the wrong entries. Hold an entry at a bound
+      only if its negative gradient points out of the box
+    held-left-out: your code omits the held entries in the right-hand side for the free
       entries. Use the gradient H x + f at the current x
-    held-left-out 2: your right-hand side for the free entries leaves out the held
-      entries. Use the gradient H x + f at the current x
-    one-step: your result is x after one clamped Newton step. If one entry is held at a
-      bound, the optimal values of the other entries change, so solve for them again
-    full-hessian: your code solves for each step with the whole matrix H. The held
-      entries do not move, so leave out their rows and columns
-    whole-steps: your code takes each Newton step of the free entries in full and clamps
-      it, so x can alternate forever between two points. Stop at the first bound, or
-      halve the step until the cost falls
+    held-left-out 2: your code omits the held entries in the right-hand side for the
+      free entries. Use the gradient H x + f at the current x
+    one-step: your code takes only one clamped Newton step. Solve again for the other
+      entries, because their optimal values change if one entry is held at a bound
+    full-hessian: your code uses the whole matrix H for each step. Omit the rows and
+      columns of the held entries, because these entries do not move
+    whole-steps: your code clamps the full Newton step of the free entries, so x can
+      alternate between two points. End the step at the first bound, or halve it until
+      the cost falls
     diagonal-hessian: your code divides the gradient by the diagonal of H. Solve with
-      the rows and columns of H for the free entries
-    gradient-steps: your result is x after 100 clamped gradient steps, which have not
+      the rows and columns of H for the free entries instead
+    gradient-steps: your code stops after 100 clamped gradient steps, which have not
       converged. Repeat the steps until x no longer changes
-    gradient-steps 2: your clamped gradient steps have the fixed step size 0.1, with
-      which they do not converge for every H. Use 1 over the largest eigenvalue of H
-      instead
+    gradient-steps 2: your code uses the fixed step size 0.1 for clamped gradient steps,
+      which do not converge for every H. Use 1 over the largest eigenvalue of H instead
     diagonal-hessian 2: your code divides the gradient by the diagonal of H. Solve with
-      the rows and columns of H for the free entries
-    gradient-steps 3: your result is x after 1,000 clamped gradient steps. They have not
-      converged if the condition number of H is large, as in task 13.6, so solve for the
-      free entries instead
-    one-gradient-step: your result is x after one clamped gradient step, which is not
-      the minimum. Repeat the steps until x no longer changes, or solve for the free
-      entries
+      the rows and columns of H for the free entries instead
+    gradient-steps 3: your code stops after 1,000 clamped gradient steps, which have not
+      converged if the condition number of H is large. Solve for the free entries
+      instead
+    one-gradient-step: your code takes only one clamped gradient step. Repeat the steps
+      until x no longer changes, or solve for the free entries
     steps-too-long: your code takes clamped steps of the whole gradient, which may not
       converge. Divide the gradient by the largest eigenvalue of H
-    few-sweeps: your result is x after 100 sweeps of coordinate descent, which have not
+    few-sweeps: your code stops after 100 sweeps of coordinate descent, which have not
       converged. Repeat the sweeps until x no longer changes
-    one-sweep: your result is x after one sweep of coordinate descent. A change of a
-      later entry changes the optimal values of the earlier entries, so repeat the
-      sweeps
-    lower-only: your code uses only the lower bounds. Use the upper bounds too
-    upper-only: your code uses only the upper bounds. Use the lower bounds too
-    start-returned: your function returns the start point, clamped to the bounds. Return
-      the minimiser within the bounds instead
+    one-sweep: your code makes only one sweep of coordinate descent. Repeat the sweeps,
+      because a change of a later entry changes the optimal values of the earlier
+      entries
+    lower-only: your code applies only the lower bounds. Apply the upper bounds too
+    upper-only: your code applies only the upper bounds. Apply the lower bounds too
+    start-returned: your code returns the start point, clamped to the bounds. Return the
+      minimiser within the bounds instead
     """
     given = (H, f, lo, hi, x)
     free = np.linalg.solve(H, -f)

@@ -18,15 +18,15 @@ def _(rng):
 
 @row.wrongs
 def _(P, x):
-    """half: your result is half of the cost-to-go. The cost in this task has no factor
-      of 1/2
-    length-of-P-x: your result is the norm of P x. Return x . P x instead
+    """half: your code returns half of the cost-to-go. Omit the factor of 1/2, because
+      the cost of this task does not contain it
+    length-of-P-x: your code returns the norm of P x. Return x . P x instead
     summed: your code sums the entries of P x. Multiply each entry by the corresponding
-      entry of x before you sum
+      entry of x before the sum
     P-rooted: your code uses the square roots of the entries of P. Use P itself
     P-by-squares: your code multiplies P by the squares of the entries of x. Use x . P x
       instead, which also contains products of two different entries of x
-    trace: your result is the trace of P times x . x. Return x . P x instead
+    trace: your code multiplies the trace of P by x . x. Return x . P x instead
     """
     right = x @ P @ x
     return {

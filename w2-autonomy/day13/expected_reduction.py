@@ -20,7 +20,8 @@ def _(rng):
 
 @row.wrongs
 def _(dV, alpha):
-    """sign: your result has the wrong sign. A reduction is positive if the cost falls
+    """sign: your code negates the expected reduction. The reduction should be positive
+      if the cost falls
     alpha-rooted: your code multiplies the quadratic part by the square root of alpha.
       Multiply it by alpha^2 instead
     """

@@ -72,8 +72,8 @@ def by_pairs(J_space, masses, coms, g, *, first=max, swapped=False):
 
 @row.wrongs
 def _(J_space, masses, coms, g):
-    """sign: your result has the wrong sign. Relative to the rotated links, gravity
-      rotates in the opposite direction, so use g x omega instead of omega x g
+    """sign: your code negates the stiffness. Use g x omega and not omega x g, because
+      gravity rotates in the opposite direction relative to the links
     gravity-not-turned: your code uses g instead of g x omega, so each column is the
       gravity torque itself. Use g x omega, because the stiffness is the derivative of
       this torque
@@ -82,74 +82,73 @@ def _(J_space, masses, coms, g):
       this torque
     g-times-omega: your code multiplies g and omega entry by entry. Use the cross
       product g x omega instead
-    link-i-only: your row i contains only the weight of link i. Include all links distal
-      to link i, because joint i carries them too
-    only-links-after: your row i omits the weight of link i. Include it, because joint i
-      moves link i too
-    all-links: your row i contains the weights of all links. Start with link i, because
-      joint i does not carry the links before it
-    lever-sign: your lever arm has the wrong sign. Use v + omega x c, which is the
-      velocity of a centre of mass c
-    halves-swapped: your code swaps omega and v. The upper three rows of J_space contain
-      omega
-    upper-half-zero: your entries above the diagonal are all 0. Copy the entries below
-      the diagonal to them, because the matrix is symmetric
-    lower-half-zero: your entries below the diagonal are all 0. Copy the entries above
-      the diagonal to them, because the matrix is symmetric
-    upper-half-sign: your entries above the diagonal have the wrong sign. The matrix
-      should be symmetric
+    link-i-only: your code includes only the weight of link i in row i. Include all
+      links distal to link i, because joint i carries them too
+    only-links-after: your code omits the weight of link i in row i. Include this
+      weight, because joint i also moves link i
+    all-links: your code includes the weights of all links in row i. Start with link i,
+      because joint i does not carry the links before it
+    lever-sign: your code uses v - omega x c as the velocity of a centre of mass c. Use
+      v + omega x c instead
+    halves-swapped: your code swaps omega and v. The upper three rows of `J_space`
+      contain omega, and the lower three contain v
+    upper-half-zero: your code leaves all entries above the diagonal at 0. Copy the
+      entries below the diagonal to them, because the matrix is symmetric
+    lower-half-zero: your code leaves all entries below the diagonal at 0. Copy the
+      entries above the diagonal to them, because the matrix is symmetric
+    upper-half-sign: your code negates the entries above the diagonal. Copy them from
+      below the diagonal without a change of sign, because the matrix is symmetric
     half-beside-the-diagonal: your code takes the mean of a lower triangular matrix and
       its transpose, which halves the off-diagonal entries. Add the two matrices
-      instead, and halve only the diagonal of the sum
-    diagonal-zero: your diagonal is 0. The lower triangle should include the diagonal
-    not-symmetrised: your code also uses the formula above the diagonal. The formula
-      holds only for i >= j, because joint j then rotates every link that joint i
-      carries. Copy the lower triangle to the upper one
+      instead, and then halve the diagonal
+    diagonal-zero: your code leaves the diagonal at 0. Compute the diagonal entries too,
+      because each joint also changes its own torque
+    not-symmetrised: your code also uses the formula above the diagonal. Copy the lower
+      triangle to the upper one instead, because the formula holds only for i >= j
     not-symmetrised 2: your code also uses the formula above the diagonal and transposes
-      the result. The formula holds only for i >= j, so copy the lower triangle to the
-      upper one
-    averaged: your code averages the two triangles, although only the lower triangle is
-      correct. Copy the lower triangle to the upper one instead
-    other-half: your code computes the upper triangle of the stiffness matrix and copies
-      it to the lower one. The formula with g x omega_j holds only for i >= j, so
-      compute the lower triangle instead
-    diagonal-doubled: your code adds two triangles that both contain the diagonal, so
-      the diagonal is doubled. Add the diagonal only once
-    diagonal-only: your off-diagonal entries are all 0. Compute them too, because the
-      rotation of one joint also changes the torque at other joints
+      the result. Copy the lower triangle to the upper one instead, because the formula
+      holds only for i >= j
+    averaged: your code averages the two triangles. Copy the lower triangle to the upper
+      one instead, because the formula holds only for i >= j
+    other-half: your code copies the upper triangle to the lower one. Copy the lower
+      triangle to the upper one instead, because the formula holds only for i >= j
+    diagonal-doubled: your code adds two triangles that both contain the diagonal, which
+      doubles the diagonal. Include the diagonal in only one of them
+    diagonal-only: your code leaves all off-diagonal entries at 0. Compute them too,
+      because the rotation of one joint also changes the torque at other joints
     only-z: your code uses only the z component of g. Use the whole vector, because
-      gravity may point in any direction
-    minus-9.81: your code replaces g by (0, 0, -9.81). Use the argument g, because
-      gravity may point in any direction
-    minus-9.81 2: your code replaces g by a vertical vector of the same norm. Use the
-      argument g, because gravity may point in any direction
-    axis-before: your code rotates gravity about the axis of joint j - 1 in column j.
-      Use the axis of joint j instead
-    axes-summed: your code rotates gravity about the sum of all axes up to joint j in
-      column j. Use only the axis of joint j
+      gravity may have any direction
+    minus-9.81: your code uses (0, 0, -9.81) instead of the argument g. Use g, because
+      gravity may have any direction
+    minus-9.81 2: your code uses a vertical vector with the norm of g. Use g itself,
+      because gravity may have any direction
+    axis-before: your code uses the axis of joint j - 1 in column j. Use the axis of
+      joint j instead
+    axes-summed: your code uses the sum of all axes up to joint j in column j. Use only
+      the axis of joint j
     g-along-omega: your code uses the component of g along omega. Use the cross product
       g x omega instead
     total-mass: your code uses the mass of the whole arm for every link. Use the mass of
-      each link
-    differences: your result is a finite difference of the torque with the large step of
-      0.05 rad. Use the formula with g x omega instead, which gives the exact derivative
-    last-axis: your code rotates gravity about the axis of the last joint in every
-      column. Use the axis of joint j in column j
-    z-axis: your code rotates gravity about z in every column. Use the axis of joint j
-      in column j
+      each link instead
+    differences: your code computes a finite difference with a large step of 0.05 rad.
+      Use the formula with g x omega instead, which gives the exact derivative
+    last-axis: your code uses the axis of the last joint in every column. Use the axis
+      of joint j in column j
+    z-axis: your code uses the z axis as the axis of every joint. Use the axis of joint
+      j in column j
     turned-twice: your code rotates gravity about both omega_i and omega_j. Rotate
       gravity only about omega_j
-    v-for-omega: your code rotates gravity about v_j. The rotation axis of a joint is
-      omega_j, the upper three rows of J_space
-    torque-added: your code adds g to g x omega_j, which adds the gravity torque itself.
-      Use g x omega_j alone, because the stiffness is the derivative of the torque
+    v-for-omega: your code uses v_j as the rotation axis of joint j. Use omega_j
+      instead, the upper three rows of `J_space`
+    torque-added: your code uses g + g x omega_j, so it adds the gravity torque itself.
+      Use g x omega_j alone, because the stiffness is the derivative of this torque
     distal-joints-too: your code also sums over links that only one of the two joints
-      moves. Sum only over the links from the later joint on, which both joints move
-    roles-swapped: your code swaps the two joints. Use the velocity of the centre of
-      mass for the later joint, and rotate this velocity about the axis of the earlier
-      joint
-    screws-stay: your code moves only the centres of mass with joint j. Joint j also
-      moves the axes of the joints after it
+      moves. Start the sum with the link of the later joint, because both joints move
+      only this link and the links after it
+    roles-swapped: your code swaps the two joints. Use the later joint for the velocity
+      of the centre of mass, and the axis of the earlier joint to rotate this velocity
+    screws-stay: your code moves only the centres of mass with joint j. Move the axes of
+      the joints after joint j too
     """
     omega = J_space[:3].T
     turned = np.cross(g, omega)

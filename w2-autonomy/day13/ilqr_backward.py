@@ -79,78 +79,82 @@ def sum_of(k, luu):
 
 @row.wrongs
 def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
-    """mu-in-k-only: your code uses mu only in k. Add mu to Quu wherever the equations
-      contain Quu
-    mu-in-k-only 2: your code omits mu in K. Add mu to Quu wherever the equations
-      contain Quu
-    mu-in-K-only: your code omits mu in k. Add mu to Quu wherever the equations contain
-      Quu
-    mu-squared: your code squares mu. Add mu itself to the diagonal of Quu
-    mu-not-in-V: your code omits mu in Vx and Vxx. Use the same Quu as in the gains
-    mu-not-in-V 2: your code omits mu in Vx, Vxx and `drop`. Use the same Quu as in the
-      gains
-    mu-not-in-the-drop: your code omits mu in `drop`. Use the same Quu as in the gains
-    mu-on-Vxx: your code adds mu to Vxx. Add mu to the diagonal of Quu instead
-    mu-on-Vxx 2: your code adds mu to Vxx inside Quu. Add mu to the diagonal of Quu
-      itself
-    Vx-not-passed-on: your code uses Vx of the final cost in every step. Update Vx in
-      each step
-    Vxx-not-passed-on: your code uses Vxx of the final cost in every step. Update Vxx in
-      each step
-    V-signs: your `Vx` and `Vxx` subtract Qux^T k and Qux^T K. Add these terms, because
-      k and K already contain the minus sign
-    nothing-saved: your `Vx` and `Vxx` are Qx and Qxx. Add the terms with the gains,
-      which reduce the cost
-    drop-last-step: your `drop` contains the values of only one step. Sum the values
-      over all steps
-    half-in-the-first: your code halves the first entry of `drop`. Only the second entry
-      has a factor of 1/2
-    drop-summed: your `drop` is the sum of its two entries. Return the two entries
+    """mu-in-k-only: your code uses `mu` only in k. Add `mu` to the diagonal of `Quu`
+      before you use `Quu` in any equation
+    mu-in-k-only 2: your code omits `mu` in K. Add `mu` to the diagonal of `Quu` before
+      you use `Quu` in any equation
+    mu-in-K-only: your code omits `mu` in k. Add `mu` to the diagonal of `Quu` before
+      you use `Quu` in any equation
+    mu-squared: your code squares `mu`. Add `mu` itself to the diagonal of `Quu`
+    mu-not-in-V: your code omits `mu` in the `Quu` of `Vx` and `Vxx`. Use the same `Quu`
+      as in the gains
+    mu-not-in-V 2: your code omits `mu` in the `Quu` of `Vx`, `Vxx` and `drop`. Use the
+      same `Quu` as in the gains
+    mu-not-in-the-drop: your code omits `mu` in the `Quu` of `drop`. Use the same `Quu`
+      as in the gains
+    mu-on-Vxx: your code adds `mu` to `Vxx`. Add `mu` to the diagonal of `Quu` instead
+    mu-on-Vxx 2: your code adds `mu` to `Vxx` in the formula for `Quu`. Add `mu` to the
+      diagonal of `Quu` itself
+    Vx-not-passed-on: your code uses `Vx` of the final cost in every step. Update `Vx`
+      in each step
+    Vxx-not-passed-on: your code uses `Vxx` of the final cost in every step. Update
+      `Vxx` in each step
+    V-signs: your code subtracts `Qux.T @ k` in `Vx` and `Qux.T @ K` in `Vxx`. Add these
+      terms, because k and K already contain the minus sign
+    nothing-saved: your code uses `Qx` as `Vx` and `Qxx` as `Vxx`. Add the terms with
+      the gains, which reduce the cost
+    drop-last-step: your code returns the `drop` of only one step. Sum both entries over
+      all steps
+    half-in-the-first: your code halves the first entry of `drop`. Halve only the second
+      entry
+    drop-summed: your code adds the two entries of `drop`. Return the two entries
       separately
-    drop-of-lu: the first entry of your `drop` is the sum of k . lu. It should be the
-      sum of k . Qu
-    drop-of-luu: the second entry of your `drop` is the sum of k . luu k / 2. It should
-      be the sum of k . Quu k / 2
-    drop-signs: your `drop` has the wrong sign. It should be the change in cost, so its
-      first entry is negative
-    drop-added: both entries of your `drop` are the sum of the two. Return the two
-      entries separately
-    drop-quadratic-sign: the second entry of your `drop` has the wrong sign. It should
-      be the sum of k . Quu k / 2, which raises the cost if Quu is positive definite
-    gain-signs: your k and K have the wrong sign. The input changes by du = k + K dx, so
-      both contain a minus sign
-    K-sign: your K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x in
-      the LQR
-    gain-signs 2: your k and K have the wrong sign. The input changes by du = k + K dx,
-      so both contain a minus sign
-    K-sign 2: your K has the wrong sign. In iLQR du = k + K dx, in contrast to u = -K x
-      in the LQR
-    diagonal-of-Quu: your code uses only the diagonal of Quu for the gains. Solve with
-      the whole matrix Quu
-    last-step-left-out: your code omits the last time step, so its k and K are 0. Begin
-      the backward pass with the last time step
-    first-step-left-out: your code omits the first time step, so its k and K are 0. End
-      the backward pass with the first time step
-    forwards: your pass goes from the first step to the last. At first, only the
-      cost-to-go of the final state is known, so begin with the last step
-    lux-not-in-K: your code omits lux in K, but not in Vx and Vxx. Use Qux, which
-      contains lux, in K, Vx and Vxx
-    Vx-not-in-k: your k contains only lu. Use Qu instead, which also contains fu^T Vx
-    mu-halved-each-step: your code halves mu in each step. Use the same mu in all steps
-    lx-of-the-next: your code uses lx of step t + 1 in step t. Use lx of step t instead
-    drop-mean: your code divides `drop` by the number of steps. It should be the sum
-      over the steps
-    drop-halved: your code halves both entries of `drop`. Only the second entry has a
-      factor of 1/2
-    first-slopes: your code uses fx and fu of the first step in every step. Use fx and
-      fu of step t in step t
-    last-slopes: your code uses fx and fu of the last step in every step. Use fx and fu
-      of step t in step t
-    K-reversed: your k and K are in reverse order. The first step should come first
-    K-reversed 2: your k is in reverse order. The first step should come first
-    K-reversed 3: your K is in reverse order. The first step should come first
-    end-forgotten: your pass begins with Vx = 0 and Vxx = 0. Begin with the derivatives
-      of the final cost instead
+    drop-of-lu: your code uses the sum of `k @ lu` as the first entry of `drop`. Use the
+      sum of `k @ Qu` instead
+    drop-of-luu: your code uses the sum of `k @ luu @ k / 2` as the second entry of
+      `drop`. Use the sum of `k @ Quu @ k / 2` instead
+    drop-signs: your code negates `drop`. Return the change in cost, whose first entry
+      is negative
+    drop-added: your code returns the sum of the two parts as both entries of `drop`.
+      Return the two parts separately
+    drop-quadratic-sign: your code negates the second entry of `drop`. Use the sum of `k
+      @ Quu @ k / 2`, which is positive if `Quu` is positive definite
+    gain-signs: your code omits the minus sign in k and K. Both should contain it,
+      because the input changes by du = k + K dx
+    K-sign: your code omits the minus sign in K. Include it, because iLQR uses du = k +
+      K dx, in contrast to u = -K x in the LQR
+    gain-signs 2: your code omits the minus sign in k and K. Both should contain it,
+      because the input changes by du = k + K dx
+    K-sign 2: your code omits the minus sign in K. Include it, because iLQR uses du = k
+      + K dx, in contrast to u = -K x in the LQR
+    diagonal-of-Quu: your code uses only the diagonal of `Quu` for the gains. Use the
+      whole matrix `Quu`
+    last-step-left-out: your code omits the last time step, so k and K of this step are
+      0. Begin the backward pass with the last time step
+    first-step-left-out: your code omits the first time step, so k and K of this step
+      are 0. End the backward pass with the first time step
+    forwards: your code goes from the first step to the last. Begin with the last step,
+      because only the cost-to-go of the final state is known at first
+    lux-not-in-K: your code omits `lux` in K, but not in `Vx` and `Vxx`. Use the same
+      `Qux`, which contains `lux`, in K, `Vx` and `Vxx`
+    Vx-not-in-k: your code uses only `lu` in k. Use `Qu` instead, which also contains
+      `fu.T @ Vx`
+    mu-halved-each-step: your code halves `mu` in each step. Use the same `mu` in all
+      steps
+    lx-of-the-next: your code uses `lx` of step t + 1 in step t. Use `lx` of step t
+      instead
+    drop-mean: your code divides `drop` by the number of steps. Return the sums over the
+      steps
+    drop-halved: your code halves both entries of `drop`. Halve only the second entry
+    first-slopes: your code uses `fx` and `fu` of the first step in every step. Use `fx`
+      and `fu` of step t in step t
+    last-slopes: your code uses `fx` and `fu` of the last step in every step. Use `fx`
+      and `fu` of step t in step t
+    K-reversed: your code returns k and K in reverse order. Put the first step first
+    K-reversed 2: your code returns k in reverse order. Put the first step first
+    K-reversed 3: your code returns K in reverse order. Put the first step first
+    end-forgotten: your code begins with `Vx` = 0 and `Vxx` = 0. Begin with the
+      derivatives of the final cost, the arguments `Vx` and `Vxx`
     """
     given = (fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu)
     k, K, drop = ilqr_backward(*given)

@@ -58,65 +58,66 @@ def exact(A, B, h, terms=59):
 def _(M, stiffness, damping, h):
     """slope-not-divided: your code uses the gravity stiffness as an acceleration.
       Multiply it by (M + h D)^-1, because the stiffness gives a torque
-    explicit-damping: your damping acts on the old velocity. In MuJoCo's integrator
-      implicitfast, the damping acts on the new velocity, so add h D to M
-    damping-twice: your damping acts on both the old and the new velocity, (M + h D)^-1
-      (M - h D). It should act on the new velocity only
-    damping-halved: half of your damping acts on the old velocity and half on the new
-      one. The whole damping should act on the new velocity
-    position-first: your code moves the joints at the old velocity. MuJoCo moves them at
-      the new velocity, so use q + h times the new velocity
-    half-h-squared: your code moves the joints by h v + h^2 a / 2. MuJoCo moves them at
-      the new velocity for the whole step, so use h times the new velocity
-    velocity-kept: the right half of your A omits the damping. The new velocity should
-      contain (M + h D)^-1 M v
-    velocity-kept 2: the lower right block of your A is the identity matrix. It should
-      be (M + h D)^-1 M, because the damping reduces the velocity
+    explicit-damping: your code multiplies the damping by the old velocity. Add h D to M
+      instead, because MuJoCo's `implicitfast` applies the damping to the new velocity
+    damping-twice: your code applies the damping to both the old and the new velocity,
+      (M + h D)^-1 (M - h D). Apply it only to the new velocity, (M + h D)^-1 M
+    damping-halved: your code applies half of the damping to the old velocity and half
+      to the new one. Apply the whole damping to the new velocity
+    position-first: your code moves the joints with the old velocity. Use h times the
+      new velocity, because MuJoCo updates the velocity first
+    half-h-squared: your code moves the joints by h v + h^2 a / 2. Use h times the new
+      velocity instead, because MuJoCo updates the velocity first
+    velocity-kept: your code omits the damping in the right half of A. Use (M + h D)^-1
+      M v as the part of the new velocity that comes from the old velocity v
+    velocity-kept 2: your code uses the identity matrix as the lower right block of A.
+      Use (M + h D)^-1 M instead, because the damping reduces the velocity
     inverse-by-entry: your code inverts each entry of M + h D separately. Use the matrix
       inverse instead
-    position-kept: the upper left block of your A is the identity matrix. Subtract h^2
-      (M + h D)^-1 times the stiffness, because gravity changes the new velocity, which
-      moves the joints
-    B-upper-zero: the upper half of your B is 0. It should be h times the lower half,
+    position-kept: your code uses the identity matrix as the upper left block of A.
+      Subtract h^2 (M + h D)^-1 times the stiffness, because gravity changes the new
+      velocity, which moves the joints
+    B-upper-zero: your code sets the upper half of B to 0. Use h times the lower half,
       because the new velocity moves the joints within the same step
-    continuous: your A and B belong to the continuous-time system x' = A x + B u. Return
-      the matrices of one time step, x+ = A x + B u
-    step-of-euler: your A and B belong to the explicit Euler step x + h x'. Return the
-      matrices of MuJoCo's semi-implicit step, in which the new velocity moves the
+    continuous: your code returns A and B of the continuous-time system x' = A x + B u.
+      Return the matrices of one time step, x+ = A x + B u
+    step-of-euler: your code returns A and B of the explicit Euler step x + h x'. Return
+      the matrices of MuJoCo's semi-implicit step, in which the new velocity moves the
       joints
-    identity-missing: your `A` gives the change of the state. The new state also
-      contains x itself, so add the identity matrix
-    halves-swapped: your code swaps positions and velocities. The state should be (q -
-      q0, qd)
-    A-rows-swapped: your code swaps the upper and the lower rows of A. The rows of the
-      positions should come first
-    A-columns-swapped: your code swaps the left and the right columns of A. The columns
-      of the positions should come first
-    B-swapped: your code swaps the upper and the lower half of B. The rows of the
-      positions should come first
-    exponential: your A and B are the exact discretisation by the matrix exponential.
+    identity-missing: your code returns an A that gives only the change of the state.
+      Add the identity matrix, because the new state also contains x itself
+    halves-swapped: your code puts the velocities before the positions in the state. Use
+      the order (q - q0, qd)
+    A-rows-swapped: your code swaps the upper and the lower half of A. Put the rows of
+      the positions first
+    A-columns-swapped: your code swaps the left and the right half of A. Put the columns
+      of the positions first
+    B-swapped: your code swaps the upper and the lower half of B. Put the rows of the
+      positions first
+    exponential: your code computes the exact A and B with the matrix exponential.
       Return the matrices of MuJoCo's semi-implicit step instead
-    exponential 2: your A and B are the first terms of the matrix exponential. Return
-      the matrices of MuJoCo's semi-implicit step instead
-    slope-implicit: your gravity stiffness acts on the new position. In MuJoCo it acts
-      on the old position, so invert only M + h D
-    damping-not-divided: your code does not divide the damping by the mass, and the
-      damping acts on the old velocity. In MuJoCo the new velocity is (M + h D)^-1 M v
-      => both
-    B-not-divided: your B omits the factor (M + h D)^-1. Multiply the input by this
+    exponential 2: your code computes A and B with the first terms of the matrix
+      exponential. Return the matrices of MuJoCo's semi-implicit step instead
+    slope-implicit: your code applies the gravity stiffness to the new position. Invert
+      only M + h D, because MuJoCo computes the gravity torque at the old position
+    damping-not-divided: your code does not divide the damping by the mass, and it
+      applies the damping to the old velocity. Use (M + h D)^-1 M v instead, which
+      applies the damping to the new velocity => both
+    B-not-divided: your code omits the factor (M + h D)^-1 in B. Multiply by this
       factor, because the input is a torque and not an acceleration
-    B-halved-below: your code halves the lower half of B. The torque acts for the whole
-      step, so omit the factor of 1/2
+    B-halved-below: your code halves the lower half of B. Omit the factor of 1/2,
+      because the torque acts for the whole step
     B-without-damping: your code uses M^-1 in B, which omits the damping. Use (M + h
       D)^-1 instead
-    slope-halved-above: your code halves the stiffness in the upper left block of A. The
-      new velocity moves the joints for the whole step, so omit the factor of 1/2
-    B-halved-above: your code halves the upper half of B. The new velocity moves the
-      joints for the whole step, so omit the factor of 1/2
-    upper-right-h: the upper right block of your A is h times the identity matrix. It
-      should be h (M + h D)^-1 M, because the new velocity moves the joints
-    upper-without-h: your code omits h in the upper half of A. The joints move by h
-      times the new velocity
+    slope-halved-above: your code halves the stiffness in the upper left block of A.
+      Omit the factor of 1/2, because the new velocity moves the joints for the whole
+      step
+    B-halved-above: your code halves the upper half of B. Omit the factor of 1/2,
+      because the new velocity moves the joints for the whole step
+    upper-right-h: your code uses h times the identity matrix as the upper right block
+      of A. Use h (M + h D)^-1 M instead, because the new velocity moves the joints
+    upper-without-h: your code omits h in the upper half of A. Multiply the rows of the
+      new velocity by h, because the joints move by h times this velocity
     """
     n = len(damping)
     one = np.eye(n)

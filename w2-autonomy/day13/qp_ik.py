@@ -65,37 +65,34 @@ def solved(J, e, weights, damp, lo, hi, right=None, box=box_qp):
 
 @row.wrongs(hidden={"stands-still-allowed": "no joint of the lab is beyond its range"})
 def _(J, e, weights, damping, dq_lo, dq_hi):
-    """clip-after: your result is Day 3's damped step, clamped to the bounds. If one
-      joint is held at its bound, the other joints should compensate for it, so solve
-      the quadratic program with bounds
-    scaled-back: your code scales the whole step down until every joint is within its
-      bounds. Solve the quadratic program instead, so that the joints that are not at a
-      bound compensate for the others
-    not-limited: your code ignores the bounds dq_lo and dq_hi. Solve the quadratic
+    """clip-after: your code clamps Day 3's damped step to the bounds. Solve the
+      quadratic program with bounds instead, so that the other joints compensate for a
+      joint at its bound
+    scaled-back: your code scales the whole step until every joint is within its bounds.
+      Solve the quadratic program with bounds instead, so that the other joints
+      compensate for a joint at its bound
+    not-limited: your code omits the bounds `dq_lo` and `dq_hi`. Solve the quadratic
       program with these bounds
-    lower-only: your code uses only the lower bounds. Use the upper bounds too
-    upper-only: your code uses only the upper bounds. Use the lower bounds too
-    limits-mirrored: your code replaces the lower bounds by minus the upper ones. Use
-      both dq_lo and dq_hi
-    limits-mirrored 2: your code replaces the lower bounds by minus the upper ones. Use
-      both dq_lo and dq_hi
-    limits-mirrored 3: your code replaces the upper bounds by minus the lower ones. Use
-      both dq_lo and dq_hi
-    limits-swapped: your code swaps the lower and the upper bounds. The lower bounds
-      come first
-    limits-1: your code replaces the bounds by -1 and 1. Use dq_lo and dq_hi instead
+    lower-only: your code applies only the lower bounds. Apply the upper bounds too
+    upper-only: your code applies only the upper bounds. Apply the lower bounds too
+    limits-mirrored: your code uses `-dq_hi` as the lower bounds. Use `dq_lo` instead
+    limits-mirrored 2: your code uses `-dq_hi` as the lower bounds. Use `dq_lo` instead
+    limits-mirrored 3: your code uses `-dq_lo` as the upper bounds. Use `dq_hi` instead
+    limits-swapped: your code swaps the lower and the upper bounds. Pass `dq_lo` first
+      and `dq_hi` second
+    limits-1: your code uses -1 and 1 as the bounds. Use `dq_lo` and `dq_hi` instead
     clipped-twice: your code clamps Day 3's damped step and then a second step for the
       remaining error. Solve the quadratic program instead, because the second step also
-      uses joints that are held at a bound
-    mean-weight-in-g: your f = -J^T W e contains the mean of the weights. Multiply each
-      entry of e by its own weight instead
-    clip-after 2: your result is Day 3's damped step without the weights, clamped to the
-      bounds. If one joint is held at its bound, the other joints should compensate for
-      it, so solve the quadratic program with bounds
+      uses joints at a bound
+    mean-weight-in-g: your code uses the mean of the weights in f = -J^T W e. Multiply
+      each entry of e by its own weight instead
+    clip-after 2: your code clamps Day 3's damped step, without the weights, to the
+      bounds. Solve the quadratic program with bounds instead, so that the other joints
+      compensate for a joint at its bound
     damping-weighted: your code multiplies the damping by the mean of the weights. Omit
-      this factor, because the weights apply only to the rows of the error
-    stands-still-allowed: your code widens the bounds until they contain 0. A joint
-      beyond its range should move back into its range, so keep the bounds
+      this factor, because the weights apply only to the error
+    stands-still-allowed: your code widens the bounds until they contain 0. Keep the
+      bounds, because a joint beyond its range should move back into its range
     translation-only: your code uses only the translation part of the error. Use all six
       components
     rotation-only: your code uses only the rotation part of the error. Use all six

@@ -32,24 +32,26 @@ def turned(angle, x, y):
 
 @row.wrongs
 def _(theta, observation):
-    """world-axes: your code adds the shift in the world frame. The shift is expressed
-      in the frame of the observed cube, so rotate it by the yaw of the cube
-    turned-with-the-hand: your code rotates the shift by the yaw of the hand. The shift
-      is expressed in the frame of the cube, so rotate it by the yaw of the cube
-    clipped-after: your code clamps the action. Clamp theta before you use it
-    clipped-below-only: your code clamps theta only at LOW. Clamp it at HIGH too
-    clipped-above-only: your code clamps theta only at HIGH. Clamp it at LOW too
-    half-clipped: your code clamps only the last three entries of theta. Clamp all
+    """world-axes: your code adds the shift in the world frame. Rotate the shift by the
+      yaw of the cube first, because the shift is expressed in the frame of the cube
+    turned-with-the-hand: your code rotates the shift by the yaw of the hand. Rotate it
+      by the yaw of the cube, because the shift is expressed in the frame of the cube
+    clipped-after: your code clamps the action instead of `theta`. Clamp `theta` before
+      you use it
+    clipped-below-only: your code clamps `theta` at `LOW`, but not at `HIGH`. Clamp
+      `theta` at `HIGH` too
+    clipped-above-only: your code clamps `theta` at `HIGH`, but not at `LOW`. Clamp
+      `theta` at `LOW` too
+    half-clipped: your code clamps only the last three entries of `theta`. Clamp all six
       entries
-    shift-forgotten: your code omits the shift given by the first two entries of theta.
-      Rotate this shift by the yaw of the cube, and add it to x and y
-    x-shift-only: your code omits the shift along the y axis of the cube, which is the
-      second entry of theta. Rotate both components of the shift by the yaw of the
-      observation
-    opening-and-height-swapped: your code swaps the height and the opening. The order
-      should be (x, y, yaw, height, opening, lift)
+    shift-forgotten: your code omits the shift given by the first two entries of
+      `theta`. Rotate this shift by the yaw of the cube, and add it to x and y
+    x-shift-only: your code omits the second entry of `theta`, the shift along the y
+      axis of the cube. Rotate both components of the shift by the yaw of the cube
+    opening-and-height-swapped: your code swaps the height and the opening. Use the
+      order (x, y, yaw, height, opening, lift)
     lift-from-the-floor: your code adds the height to the lift. Return the lift itself,
-      because the two are independent
+      because it does not depend on the height
     """
     t = np.clip(theta, LOW, HIGH)
     right = act(theta, observation)

@@ -90,47 +90,49 @@ IN_ONE_UNIT = "all rows and weights of the lab are of similar size"
     hidden={"balance-of-all": IN_ONE_UNIT, "balance-without-weights": IN_ONE_UNIT}
 )
 def _(W, weights):
-    """rank-only: your code tests only the rank. The rank is 6 even if all fingers press
-      on one face, so also test the weights and W w = 0
-    balance-only: your code does not test the rank. The forces of two opposite fingers
-      balance although the cube can rotate about the line through them, so test that the
-      rank is 6
-    balance-and-rank-5: your code accepts rank 5. A wrench has six components, so the
-      rank must be 6
-    zero-weights-do: your code accepts a weight of 0. Every weight must be above 0
-    sign-forgotten: your code accepts weights below 0. Every weight must be above 0,
-      because a finger cannot pull
-    some-weight-above-0: your code accepts the weights if at least one is above 0. Every
-      weight must be above 0
-    balance-forgotten: your code does not test the condition W w = 0. Test it too,
-      because the wrenches must balance
-    balance-absolute: your tolerance for W w is absolute, as in np.allclose(W @ weights,
-      0). Use 1e-9 times the sum of |W_ij w_j| for each row, so that the answer does not
-      depend on the units
-    balance-roughly: your tolerance for W w is 1e-4 times the sum of |W_ij w_j|. Use
-      1e-9 times this sum instead
-    balance-of-all: your code uses one tolerance for all rows of W w, computed from
-      their norm or their sum. Compare each row with 1e-9 times its own sum of |W_ij
-      w_j|
-    first-row-only: your code tests only the first row of W w. All six rows must be 0
-    balance-without-weights: your tolerance for W w is 1e-9 times the largest entry of
-      each row of W. Use 1e-9 times the sum of |W_ij w_j| instead
+    """rank-only: your code tests only the rank. Test the weights and W w = 0 too,
+      because the rank is 6 even if all fingers press on one face
+    balance-only: your code does not test the rank. Test that the rank is 6, because
+      balanced forces of two fingers do not prevent a rotation about the line through
+      them
+    balance-and-rank-5: your code accepts rank 5. Require rank 6, because a wrench has
+      six components
+    zero-weights-do: your code accepts a weight of 0. Require every weight to be above 0
+    sign-forgotten: your code accepts weights below 0. Require every weight to be above
+      0, because a finger cannot pull
+    some-weight-above-0: your code accepts the weights if at least one is above 0.
+      Require every weight to be above 0
+    balance-forgotten: your code does not test the condition W w = 0. Test this
+      condition too, because the wrenches must balance
+    balance-absolute: your code uses an absolute tolerance for W w, as in `np.allclose(W
+      @ weights, 0)`. Use 1e-9 times the sum of |W_ij w_j| in each row, so that the
+      result does not depend on the units
+    balance-roughly: your code uses a tolerance of 1e-4 times the sum of |W_ij w_j| for
+      W w. Use 1e-9 times this sum instead
+    balance-of-all: your code uses one tolerance for all rows of W w. Compare each row
+      with 1e-9 times its own sum of |W_ij w_j| instead
+    first-row-only: your code tests only the first row of W w. Test all six rows
+    balance-without-weights: your code uses 1e-9 times the largest absolute entry of
+      each row of W as the tolerance. Use 1e-9 times the sum of |W_ij w_j| in this row
+      instead
     rank-absolute: your code compares the singular values with 1e-9. Compare them with
-      1e-9 times the largest one, so that the answer does not depend on the units
+      1e-9 times the largest one, so that the result does not depend on the units
     determinant: your code tests the rank with det(W W^T). Compare the singular values
-      with 1e-9 times the largest one, so that the answer does not depend on the units
-    nothing-may-be-left: your code tests whether W w is exactly 0. Rounding leaves about
-      1e-16 even if the forces balance, so compare W w with a tolerance
-    rank-by-rounding: your rank uses NumPy's default tolerance. The tolerance should be
-      1e-9 times the largest singular value
+      with 1e-9 times the largest one, so that the result does not depend on the units
+    nothing-may-be-left: your code tests whether W w is exactly 0. Compare W w with a
+      tolerance, because rounding leaves about 1e-16 even if the forces balance
+    rank-by-rounding: your code uses NumPy's default tolerance for the rank. Use 1e-9
+      times the largest singular value instead
     weights-not-used: your code adds the columns of W without their weights. Test W w
       instead
-    forces-only: your code tests only the forces. The moments must balance too
-    moments-only: your code tests only the moments. The forces must balance too
-    sum-of-all: your code adds all components of W w, so they can cancel. Test each
-      component separately
-    always-true: your result is always True. Test the rank, the weights and W w
-    always-false: your result is always False. Test the rank, the weights and W w
+    forces-only: your code tests only the forces in W w. Test the moments too, because
+      both must balance
+    moments-only: your code tests only the moments in W w. Test the forces too, because
+      both must balance
+    sum-of-all: your code adds all components of W w, so positive and negative
+      components cancel. Test each component separately
+    always-true: your code always returns True. Test the rank, the weights and W w
+    always-false: your code always returns False. Test the rank, the weights and W w
     """
     s = np.linalg.svd(W, compute_uv=False)
     rank = np.sum(s > RANK * s[0])

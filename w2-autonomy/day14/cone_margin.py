@@ -25,41 +25,43 @@ def _(rng):
 
 @row.wrongs
 def _(force, normal, mu):
-    """sign: your code reverses the sign of the margin. A contact inside its friction
-      cone has a margin above 0
-    pyramid: your code uses the largest component of f_t as |f_t|. Use the Euclidean
-      norm, because the cone is circular
+    """sign: your code negates the margin. A contact inside its friction cone should
+      have a margin above 0
+    pyramid: your code uses the largest absolute component of f_t as |f_t|. Use the
+      Euclidean norm instead, because the cone is circular
     one-norm: your code uses the sum of the absolute components of f_t as |f_t|. Use the
-      Euclidean norm, because the cone is circular
-    force-length-for-press: your code uses the norm of the whole force as f_n. The
-      normal force is the component along the normal
-    force-length-for-press 2: your code uses the norm of the whole force as f_n. The
-      normal force is the component along the normal
+      Euclidean norm instead, because the cone is circular
+    force-length-for-press: your code uses the norm of the whole force as f_n. Use the
+      component of the force along the normal instead
+    force-length-for-press 2: your code uses the norm of the whole force as f_n. Use the
+      component of the force along the normal instead
     one-length-for-all: your code takes a single norm over the tangential forces of all
-      contacts. Take the norm of each contact's tangential force instead, with axis=1
-    mu-is-an-angle: your code uses mu as the angle of the cone. The coefficient of
-      friction is already the tangent of this angle, so use mu itself
-    normal-is-z 3: your code uses the z component of the force as f_n. The normal force
-      is the component along the contact's own normal
-    normal-is-z: your code uses the normal (0, 0, 1) for every contact. Each contact has
-      its own normal
-    normal-is-z 2: your code uses the normal (0, 0, 1) for every contact. Each contact
-      has its own normal
-    pull-counts: your code uses the absolute value of f_n for a contact that pulls. A
-      finger cannot pull, so keep the sign of f_n
-    pull-limited: your code replaces a negative f_n by 0. Keep its sign, so that a
-      contact that pulls has a margin below 0
-    ratio: your result is mu - |f_t| / f_n. The margin should be a force: mu f_n - |f_t|
-    ratio 2: your result is mu f_n / |f_t|. The margin should be a force: mu f_n - |f_t|
-    ratio 3: your result is |f_t| / (mu f_n). The margin should be a force: mu f_n -
-      |f_t|
+      contacts. Take the norm of each contact's tangential force instead, with `axis=1`
+    mu-is-an-angle: your code uses mu as the angle of the cone. Use mu itself, because
+      the coefficient of friction is already the tangent of this angle
+    normal-is-z 3: your code uses the z component of the force as f_n. Use the component
+      along the contact's own normal instead
+    normal-is-z: your code uses the normal (0, 0, 1) for every contact. Use each
+      contact's own normal instead
+    normal-is-z 2: your code uses the normal (0, 0, 1) for every contact. Use each
+      contact's own normal instead
+    pull-counts: your code uses the absolute value of f_n for a contact that pulls. Keep
+      the sign of f_n, because a finger cannot pull
+    pull-limited: your code clamps a negative f_n to 0. Keep the sign of f_n, because a
+      contact that pulls should have a margin below 0
+    ratio: your code returns mu - |f_t| / f_n. Return mu f_n - |f_t| instead, because
+      the margin is a force
+    ratio 2: your code returns mu f_n / |f_t|. Return mu f_n - |f_t| instead, because
+      the margin is a force
+    ratio 3: your code returns |f_t| / (mu f_n). Return mu f_n - |f_t| instead, because
+      the margin is a force
     mu-times-along: your code multiplies |f_t| by mu. Multiply f_n by mu instead
-    normal-into-the-finger: your f_n has the wrong sign. The normal points out of the
-      finger, into the cube, so a finger that presses has a positive f_n
-    margin-of-the-first: every contact in your result has the margin of the first. Each
-      contact should have its own margin
-    over-the-cone: your result is the distance from the surface of the cone. Do not
-      divide the margin by sqrt(1 + mu^2)
+    normal-into-the-finger: your code negates f_n. A finger that presses should have a
+      positive f_n, because the normal points out of the finger into the cube
+    margin-of-the-first: your code returns the margin of the first contact for every
+      contact. Return each contact's own margin
+    over-the-cone: your code returns the distance from the surface of the cone. Omit the
+      division by sqrt(1 + mu^2)
     """
     press = np.sum(force * normal, axis=1)
     along = force - press[:, None] * normal

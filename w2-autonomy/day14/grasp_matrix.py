@@ -25,23 +25,26 @@ def stacked(blocks):
 
 @row.wrongs
 def _(points, centre):
-    """centre-forgotten: your moments are about the origin of the world frame. They
-      should be about the argument `centre`
-    moment-sign: your moments have the wrong sign. The lever arm should be p - c, and
-      its skew-symmetric matrix should not be transposed
-    halves-swapped: your code swaps force and moment. A wrench should be (moment, force)
+    """centre-forgotten: your code computes the moments about the origin of the world
+      frame. Compute them about the argument `centre`
+    moment-sign: your code negates the moments. Use p - c as the lever arm, and do not
+      transpose its skew-symmetric matrix
+    halves-swapped: your code swaps the force and the moment. Put the moment above the
+      force
     arm-on-the-diagonal: your code puts p - c on the diagonal. Use the skew-symmetric
-      matrix of p - c instead, which computes the cross product
-    added-up: your code adds the blocks of all points. Give each point three columns of
-      its own instead
+      matrix of p - c instead, because the moment is a cross product
+    added-up: your code adds the blocks of all points. Give each point its own three
+      columns instead
     components-together: your code sorts the columns by component, with all x components
-      first. The three columns of a contact should be adjacent
-    moments-only: your lower three rows are 0. They should contain the forces
-    forces-only: your upper three rows are 0. They should contain the moments
-    about-the-mean: your moments are about the mean of the points. They should be about
-      the argument `centre`
-    forces-negative: your forces have the wrong sign. They should act on the cube, not
-      on the fingers
+      first. Put the three columns of each contact next to each other
+    moments-only: your code leaves the lower three rows at 0. Put the forces into these
+      rows
+    forces-only: your code leaves the upper three rows at 0. Put the moments into these
+      rows
+    about-the-mean: your code computes the moments about the mean of the points. Compute
+      them about the argument `centre`
+    forces-negative: your code negates the forces. Use the forces that act on the cube,
+      not on the fingers
     forces-over-n: your code divides the forces by the number of points. Omit this
       division
     """

@@ -78,39 +78,41 @@ def _(rng):
 
 @row.wrongs(hidden={"at-the-line": "no margin of the lab is exactly at the limit"})
 def _(finger_position, force, normal, mu, fraction, step):
-    """all-must-slip: your pads close only if all contacts nearly slip. Close them if at
-      least one contact nearly slips
-    at-the-line: your pads also close if a margin is equal to `fraction` times mu f_n.
-      Close them only if a margin is smaller
-    one-minus-the-share: your code compares the margin with (1 - fraction) mu f_n.
-      Compare it with `fraction` times mu f_n instead
-    high-for-low: your code uses HIGH[4] as the limit of the finger position, so the
-      pads open. Use LOW[4] instead
-    smaller-for-larger: your code returns the smaller of the new position and LOW[4].
+    """all-must-slip: your code closes the pads only if all contacts nearly slip. Close
+      them if at least one contact nearly slips
+    at-the-line: your code also closes the pads if a margin is equal to `fraction * mu *
+      f_n`. Close them only if a margin is below this value
+    one-minus-the-share: your code compares the margin with `(1 - fraction) * mu * f_n`.
+      Compare the margin with `fraction * mu * f_n` instead
+    high-for-low: your code uses `HIGH[4]` as the limit of the finger position, so the
+      pads open. Use `LOW[4]` instead
+    smaller-for-larger: your code returns the smaller of the new position and `LOW[4]`.
       Return the larger of the two instead
-    always: your pads close at every call. Close them only if a contact nearly slips
-    share-in-newtons: your code compares the margin with `fraction` itself. The margin
-      is in newtons, so multiply `fraction` by mu f_n
+    always: your code closes the pads in every call. Close them only if a contact nearly
+      slips
+    share-in-newtons: your code compares the margin with `fraction`. Compare the margin
+      with `fraction * mu * f_n` instead, because the margin is in newtons
     share-of-the-force: your code compares the margin with a fraction of the norm of the
-      force. Compare it with `fraction` times mu f_n instead
-    share-of-the-force 2: your code compares the margin with `fraction` times mu times
-      the norm of the force. Use f_n, the component along the normal, instead of the
-      norm
-    stopped-at-0: your finger position stops at 0. It should stop at LOW[4]
-    stopped-too-early: your code leaves out a step that would go beyond LOW[4]. The step
-      should end at LOW[4]
-    outside-only: your pads close only if a margin is below 0, when the contact already
-      slips. Close them if a margin is below `fraction` times mu f_n
-    the-other-way: your code reverses the comparison, so the pads close if a margin is
-      large. Close them if a margin is smaller than `fraction` times mu f_n
+      force. Compare the margin with `fraction * mu * f_n` instead
+    share-of-the-force 2: your code uses the norm of the force as f_n in `fraction * mu
+      * f_n`. Use the component of the force along the normal instead
+    stopped-at-0: your code clamps the finger position at 0. Clamp it at `LOW[4]`
+      instead
+    stopped-too-early: your code omits a step that would go beyond `LOW[4]`. End this
+      step at `LOW[4]` instead
+    outside-only: your code closes the pads only if a margin is below 0, where the
+      contact already slips. Close them if a margin is below `fraction * mu * f_n`
+    the-other-way: your code closes the pads if a margin is above `fraction * mu * f_n`.
+      Close them if a margin is below this value
     closes-to-the-limit: your code moves the pads to their closed limit in a single
-      call. Subtract only one `step` from the finger position per call
+      call. Subtract only one `step` from the finger position in each call
     a-step-a-contact: your code subtracts one step for each contact that nearly slips.
-      Subtract only one step per call
+      Subtract only one step in each call
     sum-of-margins: your code compares the sum of the margins with `fraction`. Compare
-      each margin with `fraction` times its own mu f_n
-    mean-of-margins: your code compares the mean of the margins with `fraction` times
-      the mean of mu f_n. Compare each margin with `fraction` times its own mu f_n
+      each margin with its own `fraction * mu * f_n` instead
+    mean-of-margins: your code compares the mean of the margins with the mean of
+      `fraction * mu * f_n`. Compare each margin with its own `fraction * mu * f_n`
+      instead
     """
     margin = cone_margin(force, normal, mu)
     press = np.sum(force * normal, axis=1)

@@ -52,30 +52,30 @@ def fold(yaw, period=QUARTER):
 
 @row.wrongs
 def _(T_seen, noise):
-    """not-folded: your code does not reduce the yaw modulo pi/2. A cube looks the same
-      after a rotation by pi/2, so reduce the yaw to [-pi/4, pi/4)
-    folded-to-0-to-90: your code reduces the yaw to [0, pi/2). The yaw should be in
-      [-pi/4, pi/4)
+    """not-folded: your code does not reduce the yaw. Reduce it modulo pi/2 to [-pi/4,
+      pi/4), because a cube looks the same after a rotation by pi/2
+    folded-to-0-to-90: your code reduces the yaw to [0, pi/2). Reduce it to [-pi/4,
+      pi/4) instead
     folded-by-pi: your code reduces the yaw modulo pi. Reduce it modulo pi/2, because a
       cube already looks the same after a rotation by pi/2
     folded-by-pi-over-4: your code reduces the yaw modulo pi/4. Reduce it modulo pi/2,
       because a cube looks the same only after a rotation by pi/2
-    folded-once: your code adds or subtracts pi/2 at most once. Use % or np.mod instead,
-      because the cube may be rotated by more than pi/2
+    folded-once: your code adds or subtracts pi/2 at most once. Use `%` or `np.mod`
+      instead, because the cube may be rotated by more than pi/2
     noise-after-the-fold: your code adds the noise after the reduction, so the yaw can
-      leave [-pi/4, pi/4). Add the noise first
-    fmod: your code uses np.fmod, whose result is negative for a negative argument. Use
-      % or np.mod instead
-    transposed: your yaw has the wrong sign, as with the transposed rotation matrix. Use
-      np.arctan2(R[1, 0], R[0, 0])
-    arccosine: your yaw is arccos(R[0, 0]), which is never negative. Use np.arctan2(R[1,
-      0], R[0, 0])
-    arcsine: your yaw is arcsin(R[1, 0]), which covers only the range from -pi/2 to
-      pi/2. Use np.arctan2(R[1, 0], R[0, 0])
+      leave [-pi/4, pi/4). Add the noise before the reduction
+    fmod: your code uses `np.fmod`, whose result is negative for a negative argument.
+      Use `%` or `np.mod` instead
+    transposed: your code negates the yaw, as with the transposed rotation matrix. Use
+      `np.arctan2(R[1, 0], R[0, 0])`
+    arccosine: your code uses arccos(R[0, 0]) as the yaw, which is never negative. Use
+      `np.arctan2(R[1, 0], R[0, 0])` instead
+    arcsine: your code uses arcsin(R[1, 0]) as the yaw, which covers only [-pi/2, pi/2].
+      Use `np.arctan2(R[1, 0], R[0, 0])` instead
     noise-in-the-cubes-axes: your code adds the noise along the axes of the cube. Add
-      the noise to x and y in the world frame
-    x-and-y-swapped: your code swaps x and y. The order should be (x, y, yaw)
-    yaw-first: your yaw comes first. The order should be (x, y, yaw)
+      the noise along the x and y axes of the world frame
+    x-and-y-swapped: your code swaps x and y. Return them in the order (x, y, yaw)
+    yaw-first: your code returns the yaw first. Use the order (x, y, yaw)
     """
     at = T_seen[:2, 3]
     R = T_seen[:3, :3]
@@ -121,8 +121,8 @@ def _(T_seen, noise):
 
 @row.wrong(hidden="no cube of the lab has a yaw of exactly pi/4")
 def fold_at_the_other_end(T_seen, noise):
-    """your code leaves a yaw of exactly pi/4 unchanged. The interval [-pi/4, pi/4)
-    excludes pi/4, so the result should be -pi/4"""
+    """your code leaves a yaw of exactly pi/4 unchanged. Return -pi/4 instead, because
+    the interval [-pi/4, pi/4) excludes pi/4"""
     yaw = np.arctan2(T_seen[1, 0], T_seen[0, 0]) + noise[2]
     return np.append(T_seen[:2, 3] + noise[:2], yaw - QUARTER * np.round(yaw / QUARTER))
 

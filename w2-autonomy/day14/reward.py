@@ -35,38 +35,41 @@ def _(rng):
 
 @row.wrongs
 def _(heights, target, cap):
-    """no-cap: your reward for a height above the cap is 1. The cube was thrown, so the
-      reward should be -1
-    no-cap 2: your reward for a height above the cap is 1. The cube was thrown, so the
-      reward should be -1
-    below-the-floor-is-lost: your reward for a height below the floor is -1. It should
-      be 0
-    nan-passes: your reward for NaN is NaN, because every comparison with NaN is False.
-      Test with np.isfinite
-    nan-passes 2: your reward for NaN is NaN, and minus infinity gets the reward 0. Test
-      with np.isfinite
-    nan-is-zero: your reward for NaN is 0. It should be -1, because the simulation
-      failed
-    infinity-passes: your reward for minus infinity is 0. It should be -1 for every
-      height that is not finite
-    thrown-is-zero: your reward for a height above the cap is 0. It should be -1
-    success-only: your reward is 0 or 1. Below the target, the reward should rise
-      linearly with the height
-    success-only 2: your reward is 0 or 1. Below the target, the reward should rise
-      linearly with the height
-    not-limited: your reward for a height above the target is above 1. It should be 1
-    below-the-floor: your reward for a height below the floor is below 0. It should be 0
-    thrown-is-minus-cap: your reward for a height above the cap is minus the height. It
-      should be -1
+    """no-cap: your code returns 1 for a height above the cap. Return -1, because the
+      cube was thrown
+    no-cap 2: your code returns 1 for a height above the cap. Return -1, because the
+      cube was thrown
+    below-the-floor-is-lost: your code returns -1 for a height below the floor. Return 0
+      instead
+    nan-passes: your code returns NaN for a height of NaN, because every comparison with
+      NaN is False. Test the heights with `np.isfinite`
+    nan-passes 2: your code returns NaN for a height of NaN, and 0 for a height of minus
+      infinity. Test the heights with `np.isfinite`
+    nan-is-zero: your code returns 0 for a height of NaN. Return -1, because the
+      simulation failed
+    infinity-passes: your code returns 0 for a height of minus infinity. Return -1 for
+      every height that is not finite
+    thrown-is-zero: your code returns 0 for a height above the cap. Return -1, because
+      the cube was thrown
+    success-only: your code returns only 0 or 1. Below the target, the reward should
+      rise linearly with the height
+    success-only 2: your code returns only 0 or 1. Below the target, the reward should
+      rise linearly with the height
+    not-limited: your code returns a reward above 1 for a height above the target.
+      Return 1 instead
+    below-the-floor: your code returns a negative reward for a height below the floor.
+      Return 0 instead
+    thrown-is-minus-cap: your code returns minus the height for a height above the cap.
+      Return -1 instead
     cap-for-target: your code divides the height by the cap. Divide it by the target
       instead
     cap-for-target 2: your code divides a height below the target by the cap. Divide it
       by the target instead
-    halved: your reward is -1 for a cube on the floor and 1 for a cube at the target. It
-      should rise from 0 to 1
-    one-minus: your result is 1 minus the reward. Return the reward itself
-    nothing-lost: your code omits episodes with NaN or with a height above the cap.
-      Return a reward of -1 for each of them
+    halved: your code returns -1 for a cube on the floor. The reward should rise from 0
+      on the floor to 1 at the target
+    one-minus: your code returns 1 minus the reward. Return the reward itself
+    nothing-lost: your code omits episodes with a height of NaN or above the cap. Return
+      a reward of -1 for each of these episodes
     """
     h = heights
     good = np.isfinite(h) & (h <= cap)

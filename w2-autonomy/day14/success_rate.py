@@ -25,26 +25,26 @@ def wilson(k, n, z=1.96, moved=True, inside=True, divided=True):
 
 @row.wrongs
 def _(success):
-    """plain: your function returns the Wald interval p +- 1.96 sqrt(p (1 - p) / n),
-      whose width is 0 for 8 successes in 8 trials. Use Day 12's wilson_interval instead
-    plain-to-0-and-1: your function returns the Wald interval, clamped to 0 and 1. Use
-      Day 12's wilson_interval instead
-    middle-for-rate: your rate is the centre of the interval. It should be the fraction
-      of successes
-    order: your interval comes first. The order should be (rate, low, high)
-    ends-swapped: your code swaps the two ends of the interval. The order should be
-      (rate, low, high)
-    half-width: your last two results are the distances of the ends from the rate.
-      Return the ends themselves instead
+    """plain: your code returns the Wald interval. Use Day 12's `wilson_interval`
+      instead, because the width of a Wald interval is 0 for 8 successes in 8 trials
+    plain-to-0-and-1: your code returns the Wald interval, clamped to [0, 1]. Use Day
+      12's `wilson_interval` instead
+    middle-for-rate: your code returns the centre of the interval as the rate. Return
+      the fraction of successes instead
+    order: your code returns the interval first. Use the order (rate, low, high)
+    ends-swapped: your code swaps the two ends of the interval. Use the order (rate,
+      low, high)
+    half-width: your code returns the distances of the ends from the rate as the last
+      two results. Return the ends themselves instead
     failures: your code computes the interval from the number of failures. Use the
       number of successes instead
-    one-sided: your code uses z = 1.645, which gives a 90 % interval. Use 1.96 for a 95
-      % interval
-    ninety-nine: your code uses z = 2.576, which gives a 99 % interval. Use 1.96 for a
+    one-sided: your code uses z = 1.645, which gives a 90 % interval. Use z = 1.96 for a
       95 % interval
+    ninety-nine: your code uses z = 2.576, which gives a 99 % interval. Use z = 1.96 for
+      a 95 % interval
     n-less-one: your code divides by n - 1 in the rate and in both ends of the interval.
       Divide by n instead, the number of trials
-    per-cent: your three results are in per cent. Return fractions instead
+    per-cent: your code returns per cent. Return fractions instead
     """
     won = np.asarray(success, float)
     n = len(won)

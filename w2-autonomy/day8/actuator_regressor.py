@@ -52,29 +52,33 @@ def side_by_side(*blocks):
 
 
 for slug, says, blocks in (
-    ("smoothed", "your dry friction is tanh(qd / 0.1), a smooth approximation of the "
-                 "sign of qd. Use the sign itself",
+    ("smoothed",
+     "your code uses the smooth function tanh(qd / 0.1) for dry friction. Use the sign "
+     "of qd instead",
      lambda qd, qdd: (qdd, qd, np.tanh(qd / 0.1))),
     ("sign-at-rest",
-     "your entry for dry friction is 1 for a joint at rest. It should be 0, because "
-     "the sign of 0 is 0",
+     "your code returns 1 for the dry friction of a joint at rest. Return 0 instead, "
+     "because the sign of 0 is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd < 0.0, -1.0, 1.0))),
     ("sign-at-rest-negative",
-     "your dry friction is -1 for a joint at rest. It should be 0, because the sign "
-     "of 0 is 0",
+     "your code returns -1 for the dry friction of a joint at rest. Return 0 instead, "
+     "because the sign of 0 is 0",
      lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
-    ("sign-at-rest-of-qdd", "your dry friction has the sign of qdd for a joint at "
-                            "rest. Use the sign of qd, which is 0 at rest",
+    ("sign-at-rest-of-qdd",
+     "your code uses the sign of qdd for the dry friction of a joint at rest. Use the "
+     "sign of qd instead, which is 0 at rest",
      lambda qd, qdd: (qdd, qd, np.where(qd == 0.0, np.sign(qdd), np.sign(qd)))),
-    ("slow-left-out", "your dry friction is 0 for a slow joint. Use the sign of qd, "
-                      "because the magnitude of dry friction does not depend on the "
-                      "velocity",
+    ("slow-left-out",
+     "your code returns 0 for the dry friction of a slow joint. Use the sign of qd, "
+     "because the magnitude of dry friction does not depend on the velocity",
      lambda qd, qdd: (qdd, qd, np.sign(qd) * (np.abs(qd) >= 0.1))),
-    ("dry-one-way", "your dry friction is 0 for a negative qd. It should be -1, "
-                    "because dry friction has the sign of qd",
+    ("dry-one-way",
+     "your code returns 0 for the dry friction of a joint with a negative qd. Return "
+     "-1 instead, because dry friction has the sign of qd",
      lambda qd, qdd: (qdd, qd, np.maximum(np.sign(qd), 0.0))),
-    ("dry-forgotten", "your seven columns for dry friction are 0. Their diagonal "
-                      "should contain the signs of qd",
+    ("dry-forgotten",
+     "your code returns 0 in the seven columns of dry friction. Write the signs of qd "
+     "on the diagonal of these columns",
      lambda qd, qdd: (qdd, qd, 0 * qd)),
 ):  # fmt: skip
     row.wrong(slug, says)(lambda qd, qdd, blocks=blocks: side_by_side(*blocks(qd, qdd)))
@@ -82,7 +86,7 @@ for slug, says, blocks in (
 
 @row.wrong
 def by_joint(qd, qdd):
-    """your columns are grouped by joint. Put the seven columns of the rotors first,
+    """your code groups the columns by joint. Put the seven columns of the rotors first,
     then the seven of viscous friction, then the seven of dry friction"""
     Y = side_by_side(qdd, qd, np.sign(qd)).reshape(7, 3, 7)
     return np.swapaxes(Y, 1, 2).reshape(7, 21)

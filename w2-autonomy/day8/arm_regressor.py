@@ -74,36 +74,36 @@ def below(corner, T):
 
 
 for slug, says, other in (
-    ("bracket-forgotten", "your `A` omits the term ad(V) S qd. This term is needed "
-                          "because the preceding joints move the axis of joint i",
+    ("bracket-forgotten",
+     "your code omits the term ad(V) S qd in the acceleration A. Add this term, "
+     "because the preceding joints move the axis of joint i",
                           {"bracket": 0.0}),
-    ("bracket-sign", "your `A` contains ad(S) V qd, which is the negative of ad(V) S "
-                     "qd. Use ad(V) S qd instead",
+    ("bracket-sign",
+     "your code adds ad(S) V qd to the acceleration A. Add ad(V) S qd instead, which "
+     "has the opposite sign",
      {"bracket": -1.0}),
     ("pose-not-inverted", "your code transforms V and A with Ad(T). Use Ad(T^-1) "
                           "instead, which maps from the world frame to the link frame",
      {"into": adjoint}),
-    ("offset-left-out", "the lower left block of your Ad(T^-1) is 0. It should be "
-                        "-R^T [p], which moves the reference point of V and A to the "
-                        "link's origin",
+    ("offset-left-out",
+     "your code uses 0 as the lower left block of Ad(T^-1). This block should be -R^T "
+     "[p], which moves the reference point of V and A to the link's origin",
      {"into": lambda T: np.kron(np.eye(2), T[:3, :3].T)}),
-    ("in-world-axes", "your code does not transform V and A into the link frame. "
-                      "Transform both, because the parameters of a link are expressed "
-                      "in its own frame, about its origin",
+    ("in-world-axes",
+     "your code does not transform V and A into the link frame. Transform both, "
+     "because the parameters of a link are expressed in the link's own frame",
      {"into": lambda T: np.eye(6)}),
-    ("wrench-back-with-the-inverse", "your code transforms the wrench back with "
-                                     "X^-1, as if it were a twist. A wrench "
-                                     "transforms with X^T, because the power is the "
-                                     "same in both frames",
+    ("wrench-back-with-the-inverse",
+     "your code transforms the wrench back to the world frame with X^-1, as for a "
+     "twist. Use X^T instead, because the power is the same in both frames",
                                      {"back": np.linalg.inv}),
-    ("wrench-not-carried-back", "your code only rotates the wrench to the world "
-                                "frame. Multiply the wrench by X^T, which also moves "
-                                "the reference point of the moment to the world origin",
+    ("wrench-not-carried-back",
+     "your code only rotates the wrench to the world frame. Multiply the wrench by "
+     "X^T, which also moves the reference point of the moment to the world origin",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),
-    ("every-joint-feels-every-link", "your code fills the rows of all joints for each "
-                                     "link. For link i, fill only the rows of joints "
-                                     "1 to i, because a link causes no torque at the "
-                                     "joints distal to it",
+    ("every-joint-feels-every-link",
+     "your code fills the rows of all joints for link i. Fill only the rows of joints "
+     "1 to i, because a link causes no torque at the joints distal to it",
      {"felt": lambda i: slice(0, 7)}),
     ("cut-early", "your code does not fill the row of joint i for link i. Fill this "
                   "row too, because a link also causes a torque at its own joint",
@@ -118,37 +118,43 @@ for slug, says, other in (
     ("own-link-only", "your code fills only the row of joint i for link i. Fill the "
                       "rows of joints 1 to i, because all these joints carry link i",
                       {"felt": lambda i: slice(i, i + 1)}),
-    ("last-link-missing", "your columns for the last link are 0. Does your loop end "
-                          "one link too early?", {"links": 6}),
+    ("last-link-missing",
+     "your code returns 0 in the columns of the last link. Does your loop end one link "
+     "too early?", {"links": 6}),
     ("pose-of-the-link-before", "your code uses the pose of the previous link for "
                                 "each link. T_links[0] is already the pose of link 1, "
                                 "so use T_links[i - 1] for link i",
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
-    ("pose-on-the-link-before", "your code uses the pose of each link relative to the "
-     "previous link. T_links contains poses relative to the world, so use them "
-     "unchanged",
+    ("pose-on-the-link-before",
+     "your code uses the pose of each link relative to the previous link. Use the "
+     "poses in T_links unchanged, which are relative to the world",
      {"pose": lambda T, i: inverse(T[i - 1]) @ T[i] if i else T[0]}),
     ("p-sign",
-     "the lower left block of your Ad(T^-1) has the wrong sign. It should be -R^T [p]",
+     "your code uses R^T [p] as the lower left block of Ad(T^-1). This block should be "
+     "-R^T [p]",
      {"into": lambda T: below(T[:3, :3].T @ skew(T[:3, 3]), T)}),
-    ("p-before-R", "the lower left block of your Ad(T^-1) is -[p] R^T. Because p is "
-                   "expressed in the world frame, the block should be -R^T [p]",
+    ("p-before-R",
+     "your code uses -[p] R^T as the lower left block of Ad(T^-1). This block should "
+     "be -R^T [p], because p is expressed in the world frame",
      {"into": lambda T: below(-skew(T[:3, 3]) @ T[:3, :3].T, T)}),
-    ("p-before-R", "the lower left block of your Ad(T^-1) is [p] R^T. Because p is "
-                   "expressed in the world frame, the block should be -R^T [p]",
+    ("p-before-R",
+     "your code uses [p] R^T as the lower left block of Ad(T^-1). This block should be "
+     "-R^T [p], because p is expressed in the world frame",
      {"into": lambda T: below(skew(T[:3, 3]) @ T[:3, :3].T, T)}),
-    ("acceleration-starts-anew", "your `A` contains only the acceleration of the "
-                                 "base and the terms of joint i. Add the terms of "
-                                 "the preceding joints as well",
+    ("acceleration-starts-anew",
+     "your code computes A only from the acceleration of the base and the terms of "
+     "joint i. Add the terms of the preceding joints as well",
      {"passed_on": 0.0}),
     ("gravity-forgotten", "your code does not use the argument g. Begin A with the "
                           "acceleration of the base, which is -g",
                           {"gravity": 0.0}),
-    ("acceleration-not-turned", "your code transforms V into the link frame, but it "
-                                "leaves A in the world frame. Transform both",
+    ("acceleration-not-turned",
+     "your code transforms V into the link frame, but it leaves A in the world frame. "
+     "Transform A as well, because the link regressor needs both in the link frame",
      {"both": False}),
-    ("twist-too-late", "your code uses V before it adds S qd of joint i, so V is the "
-                       "twist of the previous link. Add S qd first", {"late": True}),
+    ("twist-too-late",
+     "your code uses V before it adds S qd of joint i, so V is the twist of the "
+     "previous link. Add S qd of joint i first", {"late": True}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(walk, **other))
 
@@ -156,7 +162,7 @@ for slug, says, other in (
 @row.wrong
 def added_up_in_the_links(J, T, qd, qdd, g):
     """your code sums V and A in the link frames, so it adds vectors that are expressed
-    in different frames. Sum both in the world frame"""
+    in different frames. Sum V and A in the world frame instead"""
     V = np.zeros(6)
     A = np.append(np.zeros(3), -g)
     Y = np.zeros((7, 70))
@@ -171,8 +177,8 @@ def added_up_in_the_links(J, T, qd, qdd, g):
 
 @row.wrong
 def grouped_by_number(J_space, T_links, qd, qdd, g):
-    """your columns are grouped by parameter, with all masses first. Group the columns
-    by link, with ten columns per link"""
+    """your code groups the columns by parameter, with all masses first. Group the
+    columns by link instead, with ten columns for each link"""
     Y = arm_regressor(J_space, T_links, qd, qdd, g).reshape(7, 7, 10)
     return np.swapaxes(Y, 1, 2).reshape(7, 70)
 

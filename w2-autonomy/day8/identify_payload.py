@@ -43,20 +43,21 @@ def solved(Y, extra, rcond=None):
 
 @row.wrongs
 def _(J_site, R_site, extra, g):
-    """load-drives: your result has the wrong sign. The motors balance the payload, so
-      extra is minus the torque that the weight of the payload causes
-    force-first: your wrench is in the order (force, moment). The first three rows of
-      J_site are angular, so the moment should come first
+    """load-drives: your code returns the parameters with the wrong sign. The motors
+      balance the payload, so `extra` is minus the torque that the weight of the payload
+      causes
+    force-first: your code uses wrenches in the order (force; moment). Put the moment
+      first, because the first three rows of each matrix in J_site are angular
     holds-averaged: your code averages the equations of all poses before the fit, so
       only seven equations remain. Stack the rows of all poses instead
     first-hold-only: your code uses only the first pose. One pose does not determine all
       four parameters, so stack the rows of all poses
-    last-hold-only: your code uses only the last pose. Does each pass of your loop
-      overwrite the rows of the previous pose? Stack the rows of all poses
+    last-hold-only: your code uses only the last pose. Stack the rows of all poses. Does
+      each pass of your loop overwrite the rows of the previous pose?
     extra-by-joint: your code flattens the torques joint by joint, but it stacks the
       rows of the regressor pose by pose. Use the same order for both
-    reshaped: your code reshapes J_site to (k, 7, 6), which keeps the order of its
-      entries. To transpose each matrix, swap the last two axes
+    reshaped: your code reshapes J_site to (k, 7, 6), which does not transpose the
+      matrices. Swap the last two axes of J_site instead
     wrenches-first: your code converts each pose's torques to a wrench and fits the
       wrenches. Fit the torques themselves, because they are the measured quantities
     cut-too-high: your code omits small singular values. Keep these values, because they
@@ -64,10 +65,11 @@ def _(J_site, R_site, extra, g):
     solutions-averaged: your code solves each pose separately and averages the
       solutions. One pose does not determine all four parameters, so stack the rows of
       all poses
-    weight-for-mass: your first result is the weight in newtons. The column for m should
-      contain g itself, not the unit vector along g
-    centre-for-first-moment: your last three results are the centre of mass c. Return
-      the first moment m c instead, because the equations are linear in m c
+    weight-for-mass: your code returns the weight in newtons instead of the mass. Use g
+      itself in the column for m, not the unit vector along g
+    centre-for-first-moment: your code returns the centre of mass c in the last three
+      entries. Return the first moment m c instead, because the equations are linear in
+      m c
     """
     Y = rows(J_site, R_site, g)
     right = solved(Y, extra)
@@ -96,8 +98,8 @@ def _(J_site, R_site, extra, g):
 def _(J_site, R_site, extra, g):
     """g-not-turned-back: your code multiplies g by R. Multiply g by R^T to express it
       in the hand frame
-    moment-in-the-hand: your moment is expressed in the hand frame, but J_site requires
-      a moment in the world frame. Multiply your moment by R
+    moment-in-the-hand: your code expresses the moment in the hand frame. Multiply the
+      moment by R, because J_site requires a moment in the world frame
     """
 
     def fitted(moments):

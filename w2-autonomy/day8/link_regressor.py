@@ -27,17 +27,17 @@ def _(rng):
 
 @row.wrongs
 def _(V, Vd):
-    """ad-not-transposed: your velocity product is -ad(V) G V. It should be -ad(V)^T G
-      V, because the momentum G V transforms like a wrench
-    ad-not-transposed-plus: your velocity product is ad(V) G V. It should be -ad(V)^T G
-      V, because the momentum G V transforms like a wrench
+    """ad-not-transposed: your code uses -ad(V) G V as the velocity term. This term
+      should be -ad(V)^T G V, because the momentum G V transforms like a wrench
+    ad-not-transposed-plus: your code uses ad(V) G V as the velocity term. This term
+      should be -ad(V)^T G V, because the momentum G V transforms like a wrench
     unit-vector-not-reset: your code does not reset the unit vector phi between columns,
-      so column k is the sum of the wrenches of the first k parameters. Create a new
-      unit vector for each column
+      so column k is the sum of the first k correct columns. Create a new unit vector
+      for each column
     gravity-added: your code adds gravity to Vd. Use Vd unchanged, because it already
       includes gravity as the acceleration -g of the base
-    first-moments-empty: your columns for m c are 0. Neither multiply nor divide
-      phi[1:4] by m, because m is 0 in the unit vectors of these columns
+    first-moments-empty: your code returns 0 in the columns for m c. Neither multiply
+      nor divide phi[1:4] by m, because m is 0 in the unit vectors of these columns
     """
     right = link_regressor(V, Vd)
     X = ad(V)

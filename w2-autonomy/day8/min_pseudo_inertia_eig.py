@@ -46,56 +46,64 @@ def doubled(I):  # noqa: E741
 
 
 for slug, says, code in (
-    ("only-the-inertia", "your result is the smallest eigenvalue of I. Use the "
-                         "pseudo-inertia [[S, h], [h^T, m]] with S = (tr(I)/2) E - I, "
-                         "where E is the identity matrix",
+    ("only-the-inertia",
+     "your code returns the smallest eigenvalue of I. Use the pseudo-inertia "
+     "[[Sigma, h], [h^T, m]] instead, where Sigma is (tr(I)/2) E - I and E is the "
+     "identity matrix",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi)[:3, :3])[0]),
-    ("inertia-not-turned-round", "your upper left block is I. It should be (tr(I)/2) "
-                                 "E - I, where E is the identity matrix",
+    ("inertia-not-turned-round",
+     "your code uses I as the upper left block. Use (tr(I)/2) E - I instead, where E "
+     "is the identity matrix",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: I))[0]),  # noqa: E741
-    ("products-not-negated", "the off-diagonal entries of your S have the wrong sign. "
-                             "They should be -Ixy, -Ixz and -Iyz, because S = "
-                             "(tr(I)/2) E - I with the identity matrix E",
+    ("products-not-negated",
+     "your code uses Ixy, Ixz and Iyz as the off-diagonal entries of Sigma. Negate "
+     "these three entries, because Sigma is (tr(I)/2) E - I with the identity matrix E",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, mirrored))[0]),
-    ("not-halved", "the diagonal of your S is twice as large as it should be. Its "
-                   "first entry should be (Iyy + Izz - Ixx) / 2",
+    ("not-halved",
+     "your code omits the factor of 1/2 on the diagonal of Sigma. For example, the "
+     "first entry of Sigma should be (Iyy + Izz - Ixx) / 2",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, doubled))[0]),
-    ("centre-for-first-moment", "your code uses the centre of mass c. Use the first "
-                                "moment h = m c instead, which phi already contains",
+    ("centre-for-first-moment",
+     "your code uses the centre of mass c in the pseudo-inertia. Use the first moment "
+     "h = m c instead, which phi already contains",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, h=1.0 / phi[0]))[0]),
-    ("determinant", "your result is the determinant, which is the product of all "
-                    "eigenvalues. Return the smallest eigenvalue instead",
+    ("determinant",
+     "your code returns the determinant of the pseudo-inertia, which is the product of "
+     "all eigenvalues. Return the smallest eigenvalue instead",
      lambda phi: np.linalg.det(pseudo(phi))),
-    ("singular-value", "your result is the smallest singular value, which is never "
-                       "negative. Return the smallest eigenvalue, because its sign "
-                       "matters",
+    ("singular-value",
+     "your code returns the smallest singular value, which is never negative. Return "
+     "the smallest eigenvalue instead, because a negative one shows that the body "
+     "cannot exist",
      lambda phi: np.linalg.svd(pseudo(phi), compute_uv=False)[-1]),
-    ("nearest-to-zero", "your result is the eigenvalue with the smallest absolute "
-                        "value. Return the smallest eigenvalue, which may be negative",
+    ("nearest-to-zero",
+     "your code returns the eigenvalue with the smallest absolute value. Return the "
+     "smallest eigenvalue instead, which may be negative",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi)), key=abs)),
     ("clipped", "your code replaces a positive eigenvalue by 0. Return the eigenvalue "
                 "itself instead",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
-    ("never-above-zero", "your result is minus the absolute value of the eigenvalue. "
-                         "Return the eigenvalue itself, which is not negative for a "
-                         "body that can exist",
+    ("never-above-zero",
+     "your code returns minus the absolute value of the eigenvalue. Return the "
+     "eigenvalue itself, which is not negative for a body that can exist",
      lambda phi: -abs(np.linalg.eigvalsh(pseudo(phi))[0])),
-    ("first-moment-once", "your result does not depend on h. Either your matrix does "
-                          "not contain h, or it contains h only above the diagonal. "
-                          "The function numpy.linalg.eigvalsh reads only the lower "
-                          "triangle",
+    ("first-moment-once",
+     "your result does not depend on h. Write h both to the right of Sigma and below "
+     "it, because numpy.linalg.eigvalsh reads only the lower triangle",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
     ("about-the-centre", "your code first moves I to the centre of mass. Use I "
                          "unchanged, because the pseudo-inertia also refers to the "
                          "origin",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
-    ("of-the-inertia", "your result is the smallest eigenvalue of the 6x6 spatial "
-                       "inertia. Use the 4x4 pseudo-inertia [[S, h], [h^T, m]] with S "
-                       "= (tr(I)/2) E - I, where E is the identity matrix",
+    ("of-the-inertia",
+     "your code returns the smallest eigenvalue of the 6x6 spatial inertia. Use the "
+     "pseudo-inertia [[Sigma, h], [h^T, m]] instead, where Sigma is (tr(I)/2) E - I "
+     "and E is the identity matrix",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi))[0]),
-    ("unsorted", "your result is the first eigenvalue of numpy.linalg.eigvals, which "
-                 "does not sort the eigenvalues. Return the smallest one",
+    ("unsorted",
+     "your code returns the first result of numpy.linalg.eigvals, which does not sort "
+     "the eigenvalues. Return the smallest eigenvalue instead",
      lambda phi: np.linalg.eigvals(pseudo(phi))[0].real),
 ):  # fmt: skip
     row.wrong(slug, says)(code)

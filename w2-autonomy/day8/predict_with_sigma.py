@@ -29,37 +29,35 @@ def _(rng):
 @row.wrongs
 def _(Y, tau, Y_new, rtol):
     """columns-for-rank: your code divides the sum of the squared residuals by n - p.
-      Divide it by n - rank, because the truncated fit has only as many free parameters
-      as the rank
+      Divide the sum by n - rank instead, because the rank is the number of parameters
+      that the truncated fit determines
     one-more-taken-off: your code divides the sum of the squared residuals by n - rank -
-      1. No mean is subtracted, so divide the sum by n - rank
-    mean-of-sizes: your noise level is the mean absolute residual. It should be sqrt(r .
-      r / (n - rank)), where r is the vector of residuals
+      1. Divide the sum by n - rank instead, because no mean is subtracted
+    mean-of-sizes: your code uses the mean absolute residual as the noise level. Use
+      sqrt(r . r / (n - rank)) instead, where r is the vector of residuals
     noise-added: your code adds the noise of a new measurement to sigma. Omit this
       noise, because sigma should include only the uncertainty of the fitted parameters
-    mean-taken-off: your code first subtracts the mean of the residuals, as in a
-      standard deviation about the mean. The mean is part of the noise, so do not
-      subtract it
+    mean-taken-off: your code first subtracts the mean of the residuals. Use the
+      residuals unchanged, because their mean is part of the noise
     rank-taken-off-last: your code divides the sum of the squared residuals by n and
       then subtracts the rank. Divide the sum by n - rank instead
-    noise-for-sigma: your code returns the same sigma, the noise level, for every row of
-      Y_new. For each row y, multiply the noise level by the norm of y V S^-1. This norm
-      is large if the data hardly constrain the prediction for y
-    sigma-by-s-squared: your sigma contains the factor S^-2. Use S^-1 instead, because
-      sigma is the noise level times the norm of y V S^-1 for each row y of Y_new
-    sigma-with-V: your sigma uses V^T instead of V. The third result of numpy.linalg.svd
-      is V^T, so transpose it
-    sigma-cut-not-squared: your code compares the eigenvalues of Y^T Y with rtol times
-      the largest one when it computes sigma. These eigenvalues are the squares of the
-      singular values, so use rtol^2
-    sizes-added: your sigma is the noise level times the sum of the absolute entries of
-      y V S^-1, where y is a row of Y_new. Use the norm of this vector instead, because
-      the variances of independent errors add
-    sizes-added 2: your sigma is the noise level times the sum of the absolute entries
-      of y Y^+, where y is a row of Y_new. Use the norm of this vector instead, because
-      the variances of independent errors add
-    sigma-not-cut: your sigma includes the small singular values that the fit omits.
-      Omit these values in sigma too
+    noise-for-sigma: your code returns the noise level as sigma for every row of Y_new.
+      For each row y, multiply the noise level by the norm of y V S^-1
+    sigma-by-s-squared: your code uses the norm of y V S^-2 in sigma, where y is a row
+      of Y_new. Use the norm of y V S^-1 instead
+    sigma-with-V: your code uses V^T instead of V in sigma. The third result of
+      numpy.linalg.svd is V^T, so transpose it
+    sigma-cut-not-squared: for sigma, your code compares the eigenvalues of Y^T Y with
+      rtol times the largest one. Use rtol^2 instead of rtol, because these eigenvalues
+      are the squares of the singular values
+    sizes-added: your code uses the sum of the absolute entries of y V S^-1 in sigma,
+      where y is a row of Y_new. Use the norm of y V S^-1 instead, because the variances
+      of independent errors add
+    sizes-added 2: your code uses the sum of the absolute entries of y Y^+ in sigma,
+      where y is a row of Y_new. Use the norm of y Y^+ instead, because the variances of
+      independent errors add
+    sigma-not-cut: your code uses all singular values in sigma. Omit the small singular
+      values that the fit also omits
     """
     torque, sigma = predict_with_sigma(Y, tau, Y_new, rtol)
     U, s, Vt = parts(Y, rtol)
@@ -91,7 +89,7 @@ def _(Y, tau, Y_new, rtol):
 
 NOT_USED = Change(
     "rtol-not-used",
-    "your tolerance is a constant. Use the argument rtol instead",
+    "your code uses a constant as the tolerance. Use the argument `rtol` instead",
     lambda rtol: 1e-9,
     "the result with 1e-9 for rtol",
 )

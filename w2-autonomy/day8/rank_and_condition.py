@@ -81,54 +81,60 @@ def _(rng):
 
 
 for slug, says, told in (
-    ("rtol-absolute", "your code compares the singular values with rtol itself. "
-                      "Compare them with rtol times the largest one, because "
-                      "otherwise the rank depends on the unit",
+    ("rtol-absolute",
+     "your code compares the singular values with rtol itself. Use rtol times the "
+     "largest singular value as the limit instead, because otherwise the rank depends "
+     "on the unit",
      lambda s, rtol: (n := np.sum(s > rtol), s[0] / s[n - 1])),
-    ("condition-of-all", "your condition number uses the smallest of all singular "
-                         "values. Use the smallest singular value that the rank "
-                         "counts",
+    ("condition-of-all",
+     "your code divides the largest singular value by the smallest of all singular "
+     "values. Divide by the smallest singular value above rtol times the largest one",
      lambda s, rtol: (np.sum(s > rtol * s[0]), s[0] / max(s[-1], 1e-300))),
-    ("nothing-cut", "your code counts all singular values, so rtol has no effect. "
-                    "Count only the values above rtol times the largest one",
+    ("nothing-cut",
+     "your code counts all singular values, so rtol has no effect. Count only the "
+     "singular values above rtol times the largest one",
      lambda s, rtol: (len(s), s[0] / max(s[-1], 1e-300))),
-    ("cut-by-the-sum", "your code compares the singular values with rtol times their "
-                       "sum. Compare them with rtol times the largest one",
+    ("cut-by-the-sum",
+     "your code compares the singular values with rtol times their sum. Use rtol times "
+     "the largest singular value as the limit instead",
      lambda s, rtol: (n := np.sum(s > rtol * s.sum()), s[0] / s[n - 1])),
-    ("cut-by-the-norm", "your code compares the singular values with rtol times the "
-                        "Frobenius norm of Y. Compare them with rtol times the "
-                        "largest one",
+    ("cut-by-the-norm",
+     "your code compares the singular values with rtol times the Frobenius norm of Y. "
+     "Use rtol times the largest singular value as the limit instead",
      lambda s, rtol: (n := np.sum(s > rtol * np.linalg.norm(s)), s[0] / s[n - 1])),
-    ("cut-by-rows", "your function multiplies rtol by the number of rows, as NumPy "
-                    "does with its default tolerance. Compare the singular values "
-                    "with rtol times the largest one",
+    ("cut-by-rows",
+     "your function multiplies rtol by the number of rows, as NumPy does with its "
+     "default tolerance. Use rtol times the largest singular value as the limit "
+     "instead",
      lambda s, rtol, m: (n := np.sum(s > rtol * m * s[0]), s[0] / s[n - 1])),
-    ("rtol-not-used", "your tolerance is a constant. Use the argument rtol instead",
+    ("rtol-not-used",
+     "your code uses a constant as the tolerance. Use the argument `rtol` instead",
      lambda s, rtol: (n := np.sum(s > 1e-9 * s[0]), s[0] / s[n - 1])),
     ("eigenvalues-of-the-square", "your code uses the eigenvalues of Y^T Y as "
                                   "singular values. Use their square roots, which "
                                   "are the singular values of Y",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), (s[0] / s[n - 1]) ** 2)),
-    ("cut-not-squared", "your code compares the eigenvalues of Y^T Y with rtol times "
-                        "the largest one. These eigenvalues are the squares of the "
-                        "singular values, so compare them with rtol^2 times the "
-                        "largest one",
+    ("cut-not-squared",
+     "your code compares the eigenvalues of Y^T Y with rtol times the largest one. Use "
+     "rtol^2 instead of rtol, because these eigenvalues are the squares of the "
+     "singular values",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), s[0] / s[n - 1])),
-    ("hidden-for-shown", "your rank is the number of singular values below rtol times "
-                         "the largest one. Count the singular values above this limit "
-                         "instead",
+    ("hidden-for-shown",
+     "your code counts the singular values below rtol times the largest one. Count the "
+     "singular values above this limit instead",
      lambda s, rtol: (len(s) - (n := np.sum(s > rtol * s[0])), s[0] / s[n - 1])),
-    ("condition-squared", "your code computes the condition number of Y^T Y, which "
-                          "is the square of the condition number of Y. Use the "
-                          "singular values of Y instead",
+    ("condition-squared",
+     "your code returns the condition number of Y^T Y, which is the square of the "
+     "condition number of Y. Use the singular values of Y instead",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
-    ("condition-rooted", "your condition number is the square root of the ratio of "
-                         "the singular values. Take a square root only if you use "
-                         "the eigenvalues of Y^T Y",
+    ("condition-rooted",
+     "your code takes the square root of the ratio of two singular values. Use the "
+     "ratio itself, because only the eigenvalues of Y^T Y need a square root",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), np.sqrt(s[0] / s[n - 1]))),
-    ("condition-inverted", "your condition number is inverted. Divide the largest "
-                           "singular value by the smallest one, so that the result is "
-                           "at least 1",
+    ("condition-inverted",
+     "your code divides the smallest singular value by the largest one. Divide the "
+     "largest one by the smallest one instead, so that the condition number is at "
+     "least 1",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), s[n - 1] / s[0])),
 ):  # fmt: skip
     row.wrong(slug, says)(
@@ -145,7 +151,7 @@ def _(Y, rtol):
     """columns-scaled: your code first divides the columns of Y by their norms, which
       changes the singular values. Use Y itself instead
     columns-centred: your code first subtracts the mean of each column of Y. Use Y
-      itself, because the model tau = Y phi has no constant term
+      itself instead, because the model tau = Y phi has no constant term
     """
     return {
         "columns-scaled": counted(Y / np.linalg.norm(Y, axis=0), rtol),

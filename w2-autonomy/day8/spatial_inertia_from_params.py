@@ -25,16 +25,16 @@ def _(rng):
 
 @row.wrongs
 def _(phi):
-    """products-negative: your products of inertia Ixy, Ixz and Iyz have the wrong sign.
-      The argument phi contains the entries of I, so copy these three entries unchanged
+    """products-negative: your code negates Ixy, Ixz and Iyz. Copy these three values
+      unchanged, because phi contains the entries of the matrix I
     row-by-row: your code reads the six entries of I in the order Ixx, Ixy, Iyy, Ixz,
       Iyz, Izz. Their order in phi is Ixx, Iyy, Izz, Ixy, Ixz, Iyz
     triangle-by-rows: your code reads the six entries of I in the order Ixx, Ixy, Ixz,
       Iyy, Iyz, Izz. Their order in phi is Ixx, Iyy, Izz, Ixy, Ixz, Iyz
     first-moment-times-m: your code multiplies phi[1:4] by m. Use phi[1:4] unchanged,
       because it is already the first moment m c
-    corners-swapped: your code swaps the off-diagonal blocks. The block [h] belongs in
-      the upper right and [h]^T in the lower left
+    corners-swapped: your code swaps the two off-diagonal blocks. The upper right block
+      should be [h] and the lower left block [h]^T
     """
     m, *h = phi[:4]
     changed = {
@@ -49,18 +49,18 @@ def _(phi):
 
 @row.wrongs
 def _(phi):
-    """lower-half-zero: your matrix has the products Ixy, Ixz and Iyz only above the
-      diagonal. Write them below the diagonal too, because I is symmetric
+    """lower-half-zero: your code writes the products Ixy, Ixz and Iyz only above the
+      diagonal. Write these products below the diagonal as well, because I is symmetric
     inertia-about-the-centre: your code adds m [c] [c]^T to I. Use I unchanged, because
-      phi contains the inertia about the origin, which already includes this term
+      phi already contains the inertia about the origin
     steiner-without-m: your code adds [h] [h]^T to I. Use I unchanged, because phi
       already contains the inertia about the origin
-    corner-not-transposed: both of your off-diagonal blocks are [h]. The lower left
-      block should be [h]^T
-    corner-negated: both of your off-diagonal blocks are [h]^T. The upper right block
-      should be [h]
-    velocity-first: your blocks are in the order (v; omega). The angular block should
-      come first, because a twist in this course is (omega; v)
+    corner-not-transposed: your code uses [h] for both off-diagonal blocks. The lower
+      left block should be [h]^T
+    corner-negated: your code uses [h]^T for both off-diagonal blocks. The upper right
+      block should be [h]
+    velocity-first: your code puts the blocks in the order of a twist (v; omega). Put
+      the angular block first, because a twist in this course is (omega; v)
     """
     G = right(phi)
     C = skew(phi[1:4])

@@ -115,22 +115,24 @@ def parts(Y, rtol):
 
 @row.wrongs
 def _(Y, tau, rtol):
-    """nothing-cut: your code uses all singular values. Omit the values below rtol times
-      the largest one, because noise dominates the corresponding combinations of
-      parameters
-    rtol-absolute: your code compares the singular values with rtol itself. Compare them
-      with rtol times the largest one
+    """nothing-cut: your code uses all singular values. Omit the singular values below
+      rtol times the largest one, because noise dominates the corresponding combinations
+      of parameters
+    rtol-absolute: your code compares the singular values with rtol itself. Use rtol
+      times the largest singular value as the limit instead
     cut-by-the-sum: your code compares the singular values with rtol times their sum.
-      Compare them with rtol times the largest one
+      Use rtol times the largest singular value as the limit instead
     cut-by-the-norm: your code compares the singular values with rtol times the
-      Frobenius norm of Y. Compare them with rtol times the largest one
+      Frobenius norm of Y. Use rtol times the largest singular value as the limit
+      instead
     cut-by-rows: your function multiplies rtol by the number of rows, as NumPy does with
-      its default tolerance. Compare the singular values with rtol times the largest one
+      its default tolerance. Use rtol times the largest singular value as the limit
+      instead
     V-for-its-transpose: your code uses V^T instead of V. The third result of
       numpy.linalg.svd is V^T, so transpose it
     cut-not-squared: your code compares the eigenvalues of Y^T Y with rtol times the
-      largest one. These eigenvalues are the squares of the singular values, so compare
-      them with rtol^2 times the largest one
+      largest one. Use rtol^2 instead of rtol, because these eigenvalues are the squares
+      of the singular values
     ridge: your code adds a constant to the diagonal of Y^T Y, which shrinks all
       combinations of parameters. Omit the small singular values instead, so that the
       other combinations keep their values

@@ -37,45 +37,53 @@ for slug, says, other in (
     ("forward", "your code computes each velocity from the next sample, which is not "
                 "known yet. Use the previous sample instead",
      {"change": lambda q: np.diff(q, append=0.0)}),
-    ("central", "your function returns the central difference, which needs the next "
-                "sample. This sample is not known yet, so use the current and the "
-                "previous sample",
+    ("central",
+     "your function returns the central difference, which needs the next sample. Use "
+     "the current and the previous sample instead, because the next sample is not "
+     "known yet",
      {"change": np.gradient}),
-    ("central", "your function returns the central difference, which needs the next "
-                "sample. This sample is not known yet, so use the current and the "
-                "previous sample",
+    ("central",
+     "your function returns the central difference, which needs the next sample. Use "
+     "the current and the previous sample instead, because the next sample is not "
+     "known yet",
      {"change": lambda q: np.append(0.0, np.gradient(q)[1:])}),
-    ("from-zero", "your first velocity is q_0 / dt, as if a sample of 0 preceded it. "
-                  "No sample precedes the first one, so the first velocity should be 0",
+    ("from-zero",
+     "your code returns q[0] / dt as the first velocity. The first velocity should be "
+     "0, because no sample precedes the first one",
      {"change": lambda q: np.diff(q, prepend=0.0)}),
-    ("round-the-corner", "your code computes the first velocity with the last entry "
-                         "of q, as np.roll does. No sample precedes the first one, so "
-                         "the first velocity should be 0",
+    ("round-the-corner",
+     "your code computes the first velocity from the last sample, as np.roll does. The "
+     "first velocity should be 0, because no sample precedes the first one",
      {"change": lambda q: q - np.roll(q, 1)}),
-    ("first-repeated", "your first velocity is a copy of the second. No sample "
-                       "precedes the first one, so the first velocity should be 0",
+    ("first-repeated",
+     "your code copies the second velocity to the first one. The first velocity should "
+     "be 0, because no sample precedes the first one",
      {"change": lambda q: np.append(np.diff(q)[:1], np.diff(q))}),
     ("two-samples", "your code divides the change over two periods by dt. Divide the "
                     "change since the previous sample by dt instead",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2])}),
-    ("mean-of-two", "your code divides the change over two periods by 2 dt, which "
-                    "approximates the velocity at the previous sample. Divide the "
-                    "change since the previous sample by dt instead",
+    ("mean-of-two",
+     "your code divides the change over two periods by 2 dt. Divide the change since "
+     "the previous sample by dt instead",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2]) / 2}),
-    ("since-the-start", "your result is the mean velocity since the first sample. "
-                        "Divide the change since the previous sample by dt instead",
+    ("since-the-start",
+     "your code returns the mean velocity since the first sample. Divide the change "
+     "since the previous sample by dt instead",
      {"change": lambda q: (q - q[0]) / np.maximum(np.arange(len(q)), 1)}),
     ("from-the-first", "your code divides the change since the first sample by dt. "
                        "Use the change since the previous sample instead",
      {"change": lambda q: q - q[0]}),
-    ("by-its-time", "your code divides each change by the time since the start. Each "
-                    "change takes place within one period, so divide it by dt",
+    ("by-its-time",
+     "your code divides each change by the time since the start. Divide each change by "
+     "dt instead, because it takes place within one period",
      {"change": lambda q: backward(q) / np.maximum(np.arange(len(q)), 1)}),
-    ("last-left-out", "your last velocity is 0. Does your loop end one sample too "
-                      "early?",
+    ("last-left-out",
+     "your code returns 0 as the last velocity. Does your loop end one sample too "
+     "early?",
      {"change": lambda q: np.append(backward(q)[:-1], 0.0)}),
-    ("second-left-out", "your second velocity is 0. Does your loop begin one sample "
-                        "too late?",
+    ("second-left-out",
+     "your code returns 0 as the second velocity. Does your loop begin one sample too "
+     "late?",
      {"change": lambda q: np.append([0.0, 0.0], np.diff(q)[1:])}),
     ("twice", "your code takes the difference of the differences, which gives an "
               "acceleration times dt. Take the difference only once",

@@ -21,29 +21,29 @@ def noise(a, b, c, accel_psd):
 
 @row.wrongs
 def _(dt, accel_psd):
-    """F-without-dt: your F contains 1 instead of dt, which is correct only for a period
-      of one second. Use dt, because the angle changes by dt times the velocity
-    F-identity: your F is the identity matrix. The angle should change by dt times the
-      velocity
-    Q-diagonal-only: your Q is diagonal. A velocity change during dt also changes the
-      angle, so the off-diagonal entries should be accel_psd dt^2 / 2
-    Q-of-a-held-acceleration: your Q is correct for an acceleration that is constant
-      over dt (dt^4 / 4, dt^3 / 2, dt^2). Use the entries for white noise instead, dt^3
-      / 3, dt^2 / 2 and dt
-    Q-is-q-1: your Q is accel_psd times the identity matrix. Multiply accel_psd by
-      [[dt^3 / 3, dt^2 / 2], [dt^2 / 2, dt]] instead
-    Q-is-q-dt-1: your Q is accel_psd dt times the identity matrix. The angle is the
-      integral of the velocity, so its entry is accel_psd dt^3 / 3, and the off-diagonal
-      entries are accel_psd dt^2 / 2
-    Q-speed-only: your Q contains only the entry of the velocity, accel_psd dt. A
-      velocity change during dt also changes the angle, so fill the other three entries
-      too
+    """F-without-dt: your code uses 1 instead of dt in F. Use dt, because the angle
+      changes by dt times the velocity
+    F-identity: your code uses the identity matrix as F. The upper right entry should be
+      dt, because the angle changes by dt times the velocity
+    Q-diagonal-only: your code uses a diagonal matrix as Q. The off-diagonal entries
+      should be accel_psd dt^2 / 2, because a velocity change during dt also changes the
+      angle
+    Q-of-a-held-acceleration: your code uses the Q of an acceleration that is constant
+      over dt. Use dt^3 / 3, dt^2 / 2 and dt instead, because the acceleration is white
+      noise
+    Q-is-q-1: your code uses accel_psd times the identity matrix as Q. Multiply
+      accel_psd by [[dt^3 / 3, dt^2 / 2], [dt^2 / 2, dt]] instead
+    Q-is-q-dt-1: your code uses accel_psd dt times the identity matrix as Q. Multiply
+      accel_psd by [[dt^3 / 3, dt^2 / 2], [dt^2 / 2, dt]] instead, because the angle is
+      the integral of the velocity
+    Q-speed-only: your code fills only the entry of the velocity in Q. Fill the other
+      three entries as well, because a velocity change during dt also changes the angle
     q-squared: your code squares accel_psd. Use accel_psd itself, because a power
       spectral density is already proportional to a variance
-    off-diagonal-sign: the off-diagonal entries of your Q are negative. They should be
-      positive, because a positive velocity change also increases the angle
-    speed-first: your code swaps the angle and the velocity in Q. The state is (angle;
-      velocity)
+    off-diagonal-sign: your code negates the off-diagonal entries of Q. These entries
+      should be positive, because a positive velocity change also increases the angle
+    speed-first: your code swaps the entries of the angle and the velocity in Q. The
+      angle should come first, because the state is (angle; velocity)
     """
     F, Q = constant_velocity(dt, accel_psd)
     a, b, c = dt**3 / 3, dt**2 / 2, dt
@@ -68,7 +68,7 @@ def _(dt, accel_psd):
 
 @row.wrong(
     "answers-swapped",
-    "your code swaps F and Q. It should return F first, then Q",
+    "your code returns Q before F. Return F first, then Q",
 )
 def _(dt, accel_psd):
     return constant_velocity(dt, accel_psd)[::-1]

@@ -41,20 +41,20 @@ def _(rng):  # at the threshold, which is not over it
 
 @row.wrongs
 def _(residual, threshold):
-    """first-joint: your function returns the first joint over its threshold. A contact
-      also causes torques at the joints before the touched link, so return the last such
-      joint
+    """first-joint: your function returns the first joint over its threshold. Return the
+      last such joint instead, because a contact also causes torques at the joints
+      before the touched link
     first-joint 2: your function returns the first joint over its threshold, or 1 if
-      there is none, as np.argmax does. Return the last such joint, or 0 if there is
-      none
+      there is none. Return the last such joint instead, or 0 if there is none
     first-joint 3: your function returns the first joint over its threshold, counted
       from 0. Return the last such joint instead, counted from 1 => both
-    from-zero: your code counts the joints from 0. The first joint has the number 1,
+    from-zero: your code counts the joints from 0. Count the joints from 1 instead,
       because 0 means no contact
     from-zero 2: your code counts the joints from 0 and returns -1 without a contact.
-      The first joint has the number 1, and 0 means no contact
+      Count the joints from 1, and return 0 without a contact
     negative-only: your code detects only residuals below minus the threshold. Compare
-      the absolute values, because a contact torque may have either sign
+      the absolute values with the thresholds, because a contact torque may have either
+      sign
     sign-lost-first: your code compares only positive residuals with the thresholds and
       returns the first joint above its threshold. Compare the absolute values, and
       return the last such joint => both
@@ -64,38 +64,39 @@ def _(residual, threshold):
     sign-lost-from-zero: your code compares only positive residuals with the thresholds
       and counts the joints from 0. Compare the absolute values, and count from 1 =>
       both
-    largest: your function returns the joint with the largest residual. A longer lever
-      arm causes a larger torque, so this joint can be far from the contact. Return the
-      last joint over its threshold instead
-    largest 2: your function returns the joint with the largest residual, even if this
-      residual is below its threshold. Return the last joint over its threshold instead
-    largest 3: your function returns the joint with the largest signed residual, without
-      a threshold. Return the last joint over its threshold instead
+    largest: your function returns the joint with the largest absolute residual. Return
+      the last joint over its threshold instead, because a joint far from the contact
+      can have the largest torque
+    largest 2: your function returns the joint with the largest absolute residual, even
+      if this residual is below its threshold. Return the last joint over its threshold
+      instead
+    largest 3: your function returns the joint with the largest signed residual and
+      ignores the thresholds. Return the last joint over its threshold instead
     most-over: your function returns the joint that exceeds its threshold by the largest
       amount. Return the last joint over its threshold instead
     most-over 2: your function returns the joint that exceeds its threshold by the
       largest factor. Return the last joint over its threshold instead
-    how-many: your function returns how many joints are over their thresholds. Return
-      the number of the last such joint instead
-    how-many 2: your function returns how many joints have a residual above the
+    how-many: your function counts the joints over their thresholds. Return the number
+      of the last such joint instead
+    how-many 2: your function counts the joints whose signed residual is above the
       threshold. Return the number of the last joint whose absolute residual is above
       its threshold
     any: your function returns 1 if any joint is over its threshold, and otherwise 0.
       Return the number of the last such joint instead
-    all-or-none: your function returns 7 as soon as one joint is over its threshold.
-      Return the number of the last such joint instead
+    all-or-none: your function returns 7 if any joint is over its threshold, and
+      otherwise 0. Return the number of the last such joint instead
     last-of-none: your function returns 7 if no joint is over its threshold. Return 0
       instead
     from-the-tip: your code counts the joints from the tip. Count the joints from the
-      base, where joint1 has the number 1
-    until-one-does-not: your search stops at the first joint under its threshold. Test
-      all joints, because a later joint may be over its threshold
+      base instead, where joint1 has the number 1
+    until-one-does-not: your code stops the search at the first joint under its
+      threshold. Test all joints, because a later joint may be over its threshold
     largest-threshold: your code compares every joint with the largest threshold.
-      Compare each joint with its own threshold
+      Compare each joint with its own threshold instead
     smallest-threshold: your code compares every joint with the smallest threshold.
-      Compare each joint with its own threshold
-    last-joint-decides: your result is 7 if joint 7 is over its threshold, and otherwise
-      0. Does your loop overwrite an earlier result?
+      Compare each joint with its own threshold instead
+    last-joint-decides: your function returns 7 if joint 7 is over its threshold, and
+      otherwise 0. Does your loop overwrite an earlier result?
     last-joint-left-out: your code omits joint 7. Does your loop end one joint too
       early?
     numbers-added: your function returns the sum of the numbers of all joints over their

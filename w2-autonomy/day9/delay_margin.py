@@ -26,35 +26,41 @@ def margin(
 
 
 for slug, says, other in (
-    ("at-omega", "your w is sqrt(kp), the crossover frequency of the proportional "
-                 "term alone. Include the derivative term: solve w^4 = kp^2 + kd^2 "
-                 "w^2 for w", {"w": lambda kp, kd: np.sqrt(kp)}),
-    ("at-kd", "your w is kd, the crossover frequency of the derivative term alone. "
-              "Include the proportional term: solve w^4 = kp^2 + kd^2 w^2 for w",
+    ("at-omega",
+     "your code uses sqrt(kp) as the crossover frequency w, which ignores the "
+     "derivative term. Solve w^4 = kp^2 + kd^2 w^2 for w instead",
+     {"w": lambda kp, kd: np.sqrt(kp)}),
+    ("at-kd",
+     "your code uses kd as the crossover frequency w, which ignores the proportional "
+     "term. Solve w^4 = kp^2 + kd^2 w^2 for w instead",
      {"w": lambda kp, kd: kd}),
-    ("strengths-added", "your w^2 is kp + kd^2. At the crossover frequency, w^2 = "
-                        "sqrt(kp^2 + kd^2 w^2), because the two terms differ in phase "
-                        "by 90 degrees",
+    ("strengths-added",
+     "your code uses kp + kd^2 as w^2. Solve w^4 = kp^2 + kd^2 w^2 instead, because "
+     "the two terms differ in phase by 90 degrees",
      {"w": lambda kp, kd: np.sqrt(kp + kd**2)}),
-    ("minus-in-the-root", "your code subtracts 4 kp^2 under the inner root. Add it "
-                          "instead, because w^2 solves x^2 - kd^2 x - kp^2 = 0",
+    ("minus-in-the-root",
+     "your code subtracts 4 kp^2 under the inner root. Add 4 kp^2 instead, because w^2 "
+     "is the positive root of x^2 - kd^2 x - kp^2 = 0",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(abs(kd**4 - 4 * kp**2))) / 2)}),
-    ("half-left-out", "your code does not halve kd^2 in the quadratic formula. The "
-                      "roots of x^2 - kd^2 x - kp^2 = 0 are kd^2 / 2 +- sqrt(kd^4 / "
-                      "4 + kp^2)",
+    ("half-left-out",
+     "your code does not halve kd^2 in the quadratic formula. The result should be w^2 "
+     "= kd^2 / 2 + sqrt(kd^4 / 4 + kp^2)",
      {"w": lambda kp, kd: np.sqrt(kd**2 + np.sqrt(kd**4 + kp**2))}),
-    ("neither-squared", "your quadratic formula contains kd and kp instead of their "
-                        "squares. The unknown of the quadratic equation is w^2, so "
-                        "use kd^2, kd^4 and kp^2",
+    ("neither-squared",
+     "your code uses kd and kp instead of their squares in the quadratic formula. Use "
+     "kd^2, kd^4 and kp^2, because the unknown of the quadratic equation is w^2",
      {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**2 + 4 * kp)) / 2)}),
-    ("inverted", "your code inverts the fraction in atan. The phase lead is atan(kd w "
-                 "/ kp), which is 0 without a derivative term (kd = 0)",
+    ("inverted",
+     "your code inverts the fraction in atan. The phase lead is atan(kd w / kp), which "
+     "is 0 for kd = 0",
      {"angle": lambda kp, kd, w: np.arctan(kp / (kd * w))}),
-    ("from-the-far-side", "your angle is pi minus the phase lead. The phase margin is "
-                          "measured from -180 degrees, so it is the phase lead itself",
+    ("from-the-far-side",
+     "your code uses pi minus the phase lead as the phase margin. The phase margin is "
+     "the phase lead itself, because it is measured from -180 degrees",
      {"angle": lambda kp, kd, w: np.pi - np.arctan(kd * w / kp)}),
-    ("in-cycles", "your code divides the angle by the frequency in Hz. Divide it by w "
-                  "in rad/s, because the angle is in radians",
+    ("in-cycles",
+     "your code divides the phase lead by the frequency in Hz. Divide the phase lead "
+     "by w in rad/s instead, because it is in radians",
      {"by": lambda w: w / (2 * np.pi)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(margin, **other))
@@ -62,12 +68,11 @@ for slug, says, other in (
 
 @row.wrongs
 def _(kp, kd):
-    """critical-only: your result is 0.6474 / sqrt(kp), which is the delay margin only
-      for critical damping. For any damping, divide the phase lead atan(kd w / kp) by
-      the crossover frequency w
-    damper-alone: your result is pi / (2 kd), the delay margin without a proportional
-      term. Include kp both in the phase lead atan(kd w / kp) and in the crossover
-      frequency w
+    """critical-only: your code returns 0.6474 / sqrt(kp), which is the delay margin
+      only for critical damping. Divide the phase lead atan(kd w / kp) by the crossover
+      frequency w instead
+    damper-alone: your code returns pi / (2 kd), which is the delay margin only for kp =
+      0. Divide the phase lead atan(kd w / kp) by the crossover frequency w instead
     """
     return {"critical-only": 0.6474 / np.sqrt(kp), "damper-alone": np.pi / 2 / kd}
 

@@ -24,12 +24,12 @@ def _(rng):
 
 @row.wrongs
 def _(x, P, F, Q):
-    """transposed-on-the-left: your new covariance is F^T P F + Q. It should be F P F^T
-      + Q, because the error e becomes F e, and e e^T becomes F e e^T F^T
-    P-not-carried: your new covariance is P + Q. The matrix F also transforms the error
-      of the old state, so use F P F^T + Q
+    """transposed-on-the-left: your code computes the new covariance as F^T P F + Q. Use
+      F P F^T + Q instead, because the error e of the state becomes F e
+    P-not-carried: your code computes the new covariance as P + Q. Use F P F^T + Q
+      instead, because F also transforms the error of the state
     Q-carried-too: your code transforms both P and Q with F. Transform only P, and add Q
-      afterwards
+      afterwards, because Q already belongs to the new state
     entry-by-entry: your function multiplies F and P entry by entry with `*`. Use `@`
       for the matrix product instead
     """

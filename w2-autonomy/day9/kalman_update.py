@@ -62,51 +62,58 @@ def after_it(P, H, R, after, new_P):
 
 
 for slug, says, other in (
-    ("surprise-sign", "your innovation is H x - z, so the state moves away from the "
-                      "reading. The innovation should be z - H x",
+    ("surprise-sign",
+     "your code uses H x - z as the innovation, so the state moves away from the "
+     "reading. Use z - H x instead",
      {"of": lambda z, Hx: Hx - z}),
     ("R-rooted", "your code uses the square root of R. Use R itself, because R is a "
                  "covariance and not a standard deviation",
      {"of_R": lambda R: np.sqrt(np.abs(R))}),
-    ("divided-by-R", "your K is P H^T R^-1, which is correct only with the updated "
-                     "P. With the predicted P, use the innovation covariance S "
-                     "instead of R",
+    ("divided-by-R",
+     "your code computes the gain as P H^T R^-1 with the predicted P. Use S^-1 instead "
+     "of R^-1, where S is the innovation covariance H P H^T + R",
      {"K": lambda P, H, S, R: P @ H.T @ np.linalg.inv(R)}),
-    ("P-from-the-right", "your new covariance is P (I - K H) with the identity matrix "
-                         "I. It should be (I - K H) P",
+    ("P-from-the-right",
+     "your code computes the new covariance as P (I - K H), where I is the identity "
+     "matrix. Use (I - K H) P instead",
                          {"new_P": lambda P, K, S, H, R: P @ without(K, H)}),
-    ("P-I-minus-K-H", "your new covariance is I - K H with the identity matrix I. It "
-                      "should be (I - K H) P",
+    ("P-I-minus-K-H",
+     "your code computes the new covariance as I - K H, where I is the identity "
+     "matrix. Use (I - K H) P instead",
      {"new_P": lambda P, K, S, H, R: without(K, H)}),
-    ("P-minus-K-H", "your new covariance is P - K H. Subtract K H P instead, which is "
-                    "K S K^T",
+    ("P-minus-K-H",
+     "your code computes the new covariance as P - K H. Subtract K H P instead, which "
+     "is equal to K S K^T",
      {"new_P": lambda P, K, S, H, R: P - K @ H}),
-    ("P-joseph-short", "your new covariance is (I - K H) P (I - K H)^T with the "
-                       "identity matrix I. The Joseph form also contains the term K R "
-                       "K^T",
+    ("P-joseph-short",
+     "your code computes the new covariance as (I - K H) P (I - K H)^T, where I is the "
+     "identity matrix. Add K R K^T, which is the other term of the Joseph form",
      {"new_P": lambda P, K, S, H, R: without(K, H) @ P @ without(K, H).T}),
     ("P-K-R-K-besides", "your code adds K R K^T to P - K S K^T. Omit this term, which "
                         "belongs only to the Joseph form",
      {"new_P": lambda P, K, S, H, R: P - K @ S @ K.T + K @ R @ K.T}),
-    ("x-only-where-read", "your code corrects only the measured entries of x. The "
-                          "other entries are correlated with the measured ones, so "
-                          "correct all entries with K",
+    ("x-only-where-read",
+     "your code corrects only the measured entries of x. Correct all entries with K, "
+     "because the other entries are correlated with the measured ones",
      {"new_x": lambda x, K, y, z, H: np.where((H != 0.0).any(axis=0), x + K @ y, x)}),
     ("x-by-the-reading", "your code multiplies K by the reading z. Multiply K by the "
                          "innovation z - H x instead",
                          {"new_x": lambda x, K, y, z, H: x + K @ z}),
-    ("nis-with-R", "your code computes the NIS with R^-1. The innovation also "
-                   "contains the error of x, so use S^-1 instead",
+    ("nis-with-R",
+     "your code computes the NIS with R^-1. Use S^-1 instead, because the innovation "
+     "also contains the error of x",
      {"nis": lambda y, S, known: weighed(y, known[2])}),
-    ("nis-without-R", "your code computes the NIS with (H P H^T)^-1. The innovation "
-                      "also contains the noise of the reading, so use S^-1 instead",
+    ("nis-without-R",
+     "your code computes the NIS with (H P H^T)^-1. Use S^-1 instead, because the "
+     "innovation also contains the noise of the reading",
      {"nis": lambda y, S, known: weighed(y, known[1] @ known[0] @ known[1].T)}),
     ("nis-after", "your code computes the NIS from the residual z - H x of the "
                   "updated x. Use the innovation instead, which is computed before "
                   "the update",
      {"nis": lambda y, S, known: weighed(known[3], S)}),
-    ("nis-with-new-P", "your code computes the NIS with the S of the updated P. Use "
-                       "the S of the predicted P instead",
+    ("nis-with-new-P",
+     "your code computes the NIS with the S of the updated P. Use the S of the "
+     "predicted P instead, because the innovation is computed before the update",
      {"nis": lambda y, S, known: weighed(y, after_it(*known))}),
     ("nis-all-after", "your code computes the NIS from the updated x and P. Use the "
                       "innovation and S instead, which are computed before the update",
@@ -115,9 +122,9 @@ for slug, says, other in (
                      "matrix S, because the entries of the innovation may be "
                      "correlated",
      {"nis": lambda y, S, known: y @ (y / np.diag(S))}),
-    ("nis-per-number", "your code divides the NIS by m, the number of entries of z. "
-                       "Do not divide it, because the expected value of the NIS "
-                       "should be m",
+    ("nis-per-number",
+     "your code divides the NIS by m, the number of entries of z. Omit this division, "
+     "because the expected value of the NIS should be m",
      {"nis": lambda y, S, known: weighed(y, S) / len(y)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(updated, **other))
@@ -125,10 +132,10 @@ for slug, says, other in (
 
 @row.wrongs
 def _(x, P, z, H, R):
-    """prior-P-in-the-gain: your gain P H^T R^-1 belongs to the updated P. With the
-      predicted P, use S^-1 instead of R^-1
-    R-in-the-information: your information form contains R instead of R^-1. Use R^-1,
-      because the information of a reading is the inverse of its covariance
+    """prior-P-in-the-gain: your code computes the gain as P H^T R^-1, which requires
+      the updated P. With the predicted P, use S^-1 instead of R^-1
+    R-in-the-information: your code uses R instead of R^-1 in the information form. Use
+      R^-1, because the information of a reading is the inverse of its covariance
     """
     _, new_P, nis = updated(x, P, z, H, R)
     y = z - H @ x

@@ -39,61 +39,69 @@ def gradient(
 
 
 for slug, says, other in (
-    ("slope-sign", "your result has the wrong sign. Relative to the rotated links, "
-                   "V_i rotates in the opposite direction, so its derivative is "
-                   "-ad(S_i) V_i",
+    ("slope-sign",
+     "your code returns the gradient with the wrong sign. The derivative of V_i is "
+     "-ad(S_i) V_i, because V_i rotates in the opposite direction relative to the "
+     "rotated links",
      {"factor": 1.0}),
-    ("halved", "your code halves the result. Omit the factor of 1/2, which cancels "
-               "because the twist appears twice in the energy V . G V / 2",
+    ("halved",
+     "your code halves the result. Omit the factor of 1/2, because the twist appears "
+     "twice in the energy V . G V / 2",
      {"factor": -0.5}),
-    ("own-link-only", "your code uses only the contribution of link i. Joint i also "
-                      "rotates all distal links, so sum the contributions of links i "
-                      "to 7",
+    ("own-link-only",
+     "your code uses only the contribution of link i. Sum the contributions of links i "
+     "to 7 instead, because joint i rotates all these links",
      {"felt": lambda i: slice(i, i + 1)}),
     ("later-links-only",
-     "your code omits the contribution of link i itself. The sum should begin with "
-     "link i",
+     "your code omits the contribution of link i. Begin the sum with link i, because "
+     "joint i also rotates link i",
      {"felt": lambda i: slice(i + 1, None)}),
     ("last-link-left-out", "your code omits the contribution of link 7. Does your "
                            "loop end one link too early?",
      {"felt": lambda i: slice(i, -1)}),
-    ("last-link-only", "your code uses only the contribution of link 7. Does your "
-                       "loop overwrite entry i for each k instead of adding to it?",
+    ("last-link-only",
+     "your code uses only the contribution of link 7. Does your loop overwrite the sum "
+     "instead of adding to it?",
      {"felt": lambda i: slice(-1, None)}),
     ("earlier-links", "your code sums the contributions of links 1 to i. Sum the "
                       "contributions of links i to 7 instead, because joint i rotates "
                       "these links",
      {"felt": lambda i: slice(0, i + 1)}),
-    ("all-links", "your code sums the contributions of all links. Sum only the "
-                  "contributions of links i to 7, because joint i does not move the "
-                  "links before it",
+    ("all-links",
+     "your code sums the contributions of all links. Sum only the contributions of "
+     "links i to 7, because joint i does not move links 1 to i - 1",
      {"felt": lambda i: slice(0, None)}),
-    ("omega-alone", "your code rotates only the angular part of V_i. Use the whole "
-                    "product ad(S_i) V_i, which changes the linear part as well",
+    ("omega-alone",
+     "your code uses only the angular part of ad(S_i) V_i. Use the whole product, "
+     "because the rotation also changes the linear part of the twist",
      {"turned": lambda S, V: np.append(np.cross(S[:3], V[:3]), np.zeros(3))}),
-    ("own-twist-only", "your V_i contains only the velocity of joint i. It should be "
-                       "the sum over joints 1 to i",
+    ("own-twist-only",
+     "your code uses only the velocity of joint i in V_i. Sum the velocities of joints "
+     "1 to i instead, because these joints move link i",
      {"twists": lambda S, qd: S * qd[:, None]}),
-    ("outer-twists", "your V_i is the sum over joints i to 7. It should be the sum "
-                     "over joints 1 to i, which move link i",
+    ("outer-twists",
+     "your code sums the velocities of joints i to 7 in V_i. Sum the velocities of "
+     "joints 1 to i instead, because these joints move link i",
      {"twists": lambda S, qd: np.cumsum((S * qd[:, None])[::-1], axis=0)[::-1]}),
-    ("twists-one-late", "your V_i omits the velocity of joint i itself. Does your "
-                        "code use V_i before it adds this velocity?",
+    ("twists-one-late",
+     "your code omits the velocity of joint i in V_i. Does your code use V_i before it "
+     "adds this velocity?",
      {"twists": lambda S, qd: np.cumsum(S * qd[:, None], axis=0) - S * qd[:, None]}),
-    ("one-late-for-all", "your code uses the twist V_(i-1) for all links from i on. "
-                         "Use the twist of each link, because the momentum of link k "
-                         "is G_k V_k",
+    ("one-late-for-all",
+     "your code uses the twist V_(i-1) for all links from i to 7. Use the twist V_k "
+     "for link k instead, because the momentum of link k is G_k V_k",
      {"carries": lambda V, i: V * 0 + (V[i - 1] if i else 0)}),
-    ("twist-of-the-tip", "your code rotates the twist of link 7. Rotate V_i, the "
-                         "twist of link i, instead",
+    ("twist-of-the-tip",
+     "your code uses the twist of link 7 instead of V_i in ad(S_i) V_i. Use V_i, which "
+     "is the twist of link i",
                          {"at": lambda V, i: V[-1]}),
-    ("one-twist-for-all", "your code uses the twist V_i for all links from i on. Use "
-                          "the twist of each link, because the momentum of link k is "
-                          "G_k V_k",
+    ("one-twist-for-all",
+     "your code uses the twist V_i for all links from i to 7. Use the twist V_k for "
+     "link k instead, because the momentum of link k is G_k V_k",
                           {"carries": lambda V, i: V * 0 + V[i]}),
-    ("tip-twist-for-all", "your code uses the twist of link 7 for all links. Use the "
-                          "twist of each link, because the momentum of link k is G_k "
-                          "V_k",
+    ("tip-twist-for-all",
+     "your code uses the twist of link 7 for all links. Use the twist V_k for link k "
+     "instead, because the momentum of link k is G_k V_k",
                           {"carries": lambda V, i: V * 0 + V[-1]}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(gradient, **other))
@@ -101,12 +109,12 @@ for slug, says, other in (
 
 @row.wrongs
 def _(J_space, G, qd):
-    """C-qd: your result is the Coriolis torque C qd. The gradient is C^T qd, with the
+    """C-qd: your code returns the Coriolis torque C qd. Return C^T qd instead, with the
       transpose of C
-    minus-C-qd: your result is the negative Coriolis torque -C qd. The gradient is C^T
-      qd, with the transpose of C and without the minus sign
-    each-its-own-twist: your code rotates the twist V_k of each link. The twists of all
-      links from i on change by the same amount, so use -ad(S_i) V_i for each of them
+    minus-C-qd: your code returns -C qd, the negative Coriolis torque. Return C^T qd
+      instead, with the transpose of C
+    each-its-own-twist: your code uses -ad(S_i) V_k for each link k. Use -ad(S_i) V_i
+      instead, because the twists of links i to 7 change by the same amount
     """
     C = dynamics.coriolis_matrix(J_space, G, qd)
     S = J_space.T

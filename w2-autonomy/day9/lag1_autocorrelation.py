@@ -36,36 +36,40 @@ def correlation(
 
 AS_IT_IS = {"above": lambda y: y}
 for slug, says, other in (
-    ("mean-not-taken-off", "your code does not subtract the mean of y. Subtract it "
-                           "first, because a constant offset makes neighbouring "
-                           "entries seem correlated",
+    ("mean-not-taken-off",
+     "your code does not subtract the mean of y. Subtract the mean first, because a "
+     "constant offset makes neighbouring entries seem correlated",
      {**AS_IT_IS, "below": lambda y: y}),
-    ("mean-left-in-the-products", "your code subtracts the mean before it computes "
-                                  "the squares, but not before it computes the "
-                                  "products. Subtract the mean for both", AS_IT_IS),
-    ("mean-left-in-the-squares", "your code subtracts the mean before it computes the "
-                                 "products, but not before it computes the squares. "
-                                 "Subtract the mean for both",
+    ("mean-left-in-the-products",
+     "your code subtracts the mean of y only for the squares, not for the products. "
+     "Subtract the mean for both", AS_IT_IS),
+    ("mean-left-in-the-squares",
+     "your code subtracts the mean of y only for the products, not for the squares. "
+     "Subtract the mean for both",
      {"below": lambda y: y}),
-    ("squares-of-the-first", "your denominator omits the square of the last entry. Use "
-                             "all n squares",
+    ("squares-of-the-first",
+     "your code omits the square of the last entry in the denominator. Use all n "
+     "squares",
      {"squares": lambda d: d[:-1] @ d[:-1]}),
-    ("squares-of-the-last", "your denominator omits the square of the first entry. Use "
-                            "all n squares",
+    ("squares-of-the-last",
+     "your code omits the square of the first entry in the denominator. Use all n "
+     "squares",
      {"squares": lambda d: d[1:] @ d[1:]}),
-    ("two-sizes", "your denominator is the product of the norms of y[1:] and y[:-1]. "
-                  "Use the sum of all n squares",
+    ("two-sizes",
+     "your code divides by the product of the norms of y[1:] and y[:-1]. Divide by the "
+     "sum of all n squares instead",
      {"squares": lambda d: np.sqrt((d[1:] @ d[1:]) * (d[:-1] @ d[:-1]))}),
-    ("by-n-sigma", "your code divides the mean of the products by the standard "
-                   "deviation. Divide it by the variance instead, so that the unit "
-                   "cancels",
+    ("by-n-sigma",
+     "your code divides the mean of the products by the standard deviation. Divide the "
+     "sum of the products by the sum of the squares instead, so that the unit cancels",
      {"squares": lambda d: np.sqrt(d @ d / len(d)), "share": lambda n: 1 / (n - 1)}),
-    ("mean-of-products", "your code divides the mean of n - 1 products by the mean of "
-                         "n squares. Divide the sum of the products by the sum of the "
-                         "squares",
+    ("mean-of-products",
+     "your code divides the mean of n - 1 products by the mean of n squares. Divide "
+     "the sum of the products by the sum of the squares instead",
      {"share": lambda n: n / (n - 1)}),
-    ("variance-for-sum", "your code divides the sum of the products by the mean of "
-                         "the squares. Divide it by the sum of the squares instead",
+    ("variance-for-sum",
+     "your code divides the sum of the products by the mean of the squares. Divide the "
+     "sum of the products by the sum of the squares instead",
      {"share": lambda n: n}),
     ("mean-by-sum", "your code divides the mean of the products by the sum of the "
                     "squares. Divide the sum of the products by the sum of the "
@@ -75,8 +79,9 @@ for slug, says, other in (
                     "squares. Divide the sum of the products by the sum of the "
                     "squares instead",
      {"share": lambda n: 1 / n}),
-    ("lag-two", "your code uses lag 2: it multiplies each entry by the entry two "
-                "positions later. Use lag 1: multiply each entry by the next entry",
+    ("lag-two",
+     "your code multiplies each entry by the entry two positions later. Multiply each "
+     "entry by the next entry instead, because the lag is 1",
      {"pairs": lambda d: d[2:] @ d[:-2]}),
     ("lag-zero", "your code multiplies each entry by itself, so the result is always "
                  "1. Multiply each entry by the next entry instead",
@@ -93,10 +98,11 @@ for slug, says, other in (
 def _(y):
     """two-means: your code uses a separate mean and norm for y[1:] and y[:-1], as
       np.corrcoef does. Use the mean of y for both, and the sum of all n squares
-    of-the-changes: your result is the autocorrelation of the differences between
-      neighbouring entries. Compute it from y itself
-    changes-squared: your result is the Durbin-Watson statistic, which is 2 for white
-      noise. Use the products of neighbouring entries instead
+    of-the-changes: your code returns the autocorrelation of the differences between
+      neighbouring entries. Return the autocorrelation of y itself
+    changes-squared: your code returns the Durbin-Watson statistic, which uses the
+      squared differences of neighbouring entries. Use the products of neighbouring
+      entries instead
     """
     d = centred(y)
     return {

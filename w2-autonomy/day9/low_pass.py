@@ -46,39 +46,43 @@ def filtered(
 
 
 for slug, says, other in (
-    ("rc-share", "your alpha is dt / (dt + RC) with RC = 1 / (2 pi cutoff). Use 1 - "
-                 "exp(-dt / RC), because your formula is accurate only if dt is much "
-                 "smaller than RC",
+    ("rc-share",
+     "your code uses dt / (dt + RC) as alpha, where RC is 1 / (2 pi cutoff). Use 1 - "
+     "exp(-dt / RC) instead, because your formula is accurate only if dt is much "
+     "smaller than RC",
      {"alpha": lambda x: x / (1 + x)}),
-    ("share-turned-round", "your code swaps alpha and 1 - alpha. The new sample "
-                           "should get the weight alpha, and the previous output the "
-                           "weight 1 - alpha",
+    ("share-turned-round",
+     "your code swaps the weights alpha and 1 - alpha. The new sample should get the "
+     "weight alpha, and the previous output the weight 1 - alpha",
      {"step": lambda y, now, before, a: now + a * (y - now)}),
-    ("euler-share", "your alpha is 2 pi cutoff dt, an Euler step, which overshoots if "
-                    "alpha is above 1. Use the exact solution over dt instead, 1 - "
-                    "exp(-2 pi cutoff dt)",
+    ("euler-share",
+     "your code uses 2 pi cutoff dt as alpha, which can exceed 1. Use 1 - exp(-2 pi "
+     "cutoff dt) instead, which is always below 1",
      {"alpha": lambda x: x}),
-    ("no-2-pi", "your code omits the factor of 2 pi. The argument `cutoff` is in Hz, "
-                "so the time constant is 1 / (2 pi cutoff)",
+    ("no-2-pi",
+     "your code omits the factor of 2 pi in alpha. The weight alpha should be 1 - "
+     "exp(-2 pi cutoff dt), because `cutoff` is in Hz",
      {"of": lambda dt, f: f * dt}),
-    ("cutoff-for-time", "your code uses `cutoff` as the time constant. The time "
-                        "constant is 1 / (2 pi cutoff), because `cutoff` is a "
-                        "frequency in Hz", {"of": lambda dt, f: dt / f}),
-    ("two-for-e", "your code computes alpha with a power of 2, as for a half-life. "
-                  "Use the exponential function instead, so that alpha is 1 - exp(-2 "
-                  "pi cutoff dt)",
+    ("cutoff-for-time",
+     "your code uses `cutoff` as the time constant. Use 1 / (2 pi cutoff) instead, "
+     "because `cutoff` is a frequency in Hz", {"of": lambda dt, f: dt / f}),
+    ("two-for-e",
+     "your code computes alpha with a power of 2 instead of the exponential function. "
+     "The weight alpha should be 1 - exp(-2 pi cutoff dt)",
      {"alpha": lambda x: 1 - 2.0**-x}),
-    ("from-zero", "your output y starts at 0. It should start at x[0]",
+    ("from-zero",
+     "your code starts the output at 0. Start the output at x[0] instead",
      {"first": lambda x, a: 0.0}),
-    ("first-filtered", "your output y starts at alpha x[0], as if the previous output "
-                       "had been 0. It should start at x[0]",
+    ("first-filtered",
+     "your code starts the output at alpha x[0]. Start the output at x[0] instead",
                        {"first": lambda x, a: a * x[0]}),
     ("by-the-sample-before", "your code uses the previous sample of x instead of the "
                              "previous output. The filter needs the previous output, "
                              "which depends on all earlier samples",
      {"step": lambda y, now, before, a: a * now + (1 - a) * before}),
-    ("change-added", "your code adds alpha times the change of x. Add alpha times the "
-                     "difference between x and the previous output",
+    ("change-added",
+     "your code adds alpha times the change of x since the previous sample. Add alpha "
+     "times the difference between x and the previous output instead",
      {"step": lambda y, now, before, a: y + a * (now - before)}),
     ("whole-numbers-kept", "your code stores y in an integer array, which discards "
                            "the fraction of each output. Create a float array instead",
@@ -90,16 +94,18 @@ for slug, says, other in (
 
 @row.wrongs
 def _(x, dt, cutoff):
-    """backwards: your filter runs from the last sample to the first, so it uses samples
-      that are not known yet. Begin with the first sample
-    there-and-back: your filter runs forwards and then backwards, as filtfilt does. Omit
-      the backward pass, because it uses samples that are not known yet
-    what-is-fast: your output is x - y, the output of a high-pass filter. Return y
-      itself
+    """backwards: your code filters from the last sample to the first, so it uses
+      samples that are not known yet. Begin with the first sample
+    there-and-back: your code filters forwards and then backwards, as filtfilt does.
+      Omit the backward pass, because it uses samples that are not known yet
+    what-is-fast: your code returns x - y, which is the output of a high-pass filter.
+      Return y itself instead
     not-filtered: your function returns x unchanged. Return the filtered signal y
-    last-left-out: your last output is 0. Does your loop end one sample too early?
-    last-left-out 2: your last output is the unfiltered last sample. Does your loop end
-      one sample too early?
+      instead
+    last-left-out: your code returns 0 as the last output. Does your loop end one sample
+      too early?
+    last-left-out 2: your code returns the unfiltered last sample as the last output.
+      Does your loop end one sample too early?
     """
     right = low_pass(x, dt, cutoff)
     return {

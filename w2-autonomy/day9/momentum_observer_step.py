@@ -37,27 +37,27 @@ def _(rng):
 
 @row.wrongs
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
-    """gravity-sign: your code adds `gravity`. Subtract it, because the argument is the
-      torque that holds the arm, and the weight acts in the opposite direction
-    residual-without-dt: your code adds the old residual to the integral without the
-      factor dt. Multiply the residual by dt, because the integral is a momentum and the
-      residual is a torque
-    integral-of-before: your code computes the residual from the old integral. Update
-      the integral first
-    integral-not-handed-on: your code returns the old integral. Return the new integral
-      instead
-    fed-back-times-gain: your integral contains the old residual times the gain. Add the
-      residual without the gain, because it is already a torque
-    low-passed-again: your code adds gain * (momentum - integral) times dt to the old
-      residual. Return gain * (momentum - integral) alone, because the feedback in the
-      integral already makes it a low-pass filter
-    residual-kept: your code adds the old residual to the new one. Return the new
+    """gravity-sign: your code adds `gravity`. Subtract `gravity` instead, because this
+      torque holds the arm, and the weight acts in the opposite direction
+    residual-without-dt: your code adds the previous residual to the integral without
+      the factor dt. Multiply the residual by dt, because the integral is a momentum and
+      the residual is a torque
+    integral-of-before: your code computes the residual from the previous integral.
+      Update the integral first, and then use the new integral
+    integral-not-handed-on: your code returns the previous integral. Return the new
+      integral instead
+    fed-back-times-gain: your code adds gain times the previous residual to the
+      integral. Add the residual without the gain, because it is already a torque
+    low-passed-again: your code adds gain * (momentum - integral) * dt to the previous
+      residual. Return gain * (momentum - integral) itself, because the feedback in the
+      integral already filters the residual
+    residual-kept: your code adds the previous residual to the new one. Return the new
       residual alone => both
-    residual-taken-off: your code subtracts the old residual from the new one. Return
-      the new residual alone
+    residual-taken-off: your code subtracts the previous residual from the new one.
+      Return the new residual alone
     new-residual-fed-back: your code updates the integral with a residual that it
-      computes from the new momentum. Use the argument `residual` instead, the residual
-      of the previous sample
+      computes from the new momentum. Use the argument `residual` instead, which is the
+      residual of the previous sample
     """
     known = tau + energy_grad - gravity - damping * qd
     now = integral + (known + residual) * dt
@@ -83,7 +83,7 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
 
 @row.wrong(
     "answers-swapped",
-    "your code swaps the residual and the integral. Return the residual first",
+    "your code returns the integral before the residual. Return the residual first",
 )
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
     step = momentum_observer_step(

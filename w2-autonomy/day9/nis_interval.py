@@ -26,29 +26,38 @@ def interval(
 
 
 for slug, says, other in (
-    ("multiplied-for-divided", "your code multiplies c by n m, because 2 / 9 * n * m "
-                               "divides only by 9. Write 2 / (9 * n * m)",
+    ("multiplied-for-divided",
+     "your code computes the variance of the cube root as 2 / 9 * n * m, which divides "
+     "only by 9. Write 2 / (9 * n * m) instead",
      {"c": lambda n, m: 2 / 9 * n * m}),
-    ("added-for-multiplied", "your c contains n + m. It should contain n m, because "
-                             "the sum of n NIS values has n m degrees of freedom",
+    ("added-for-multiplied",
+     "your code uses n + m in the variance of the cube root. Use n m instead, because "
+     "the sum of n NIS values has n m degrees of freedom",
      {"c": lambda n, m: 2 / (9 * (n + m))}),
-    ("whole-division", "your c is 0, because // discards the fraction of 2 / (9 n m). "
-                       "Use the operator / instead",
+    ("whole-division",
+     "your code computes the variance of the cube root with the operator //, so the "
+     "variance is 0. Use the operator / instead",
      {"c": lambda n, m: 2 // (9 * n * m)}),
-    ("shift-forgotten", "your function uses 1 as the mean of the cube root. Use 1 - c "
-                        "instead", {"middle": lambda c: 1.0}),
-    ("shift-sign", "your function uses 1 + c as the mean of the cube root. Use 1 - c "
-                   "instead", {"middle": lambda c: 1 + c}),
-    ("ninety", "your function uses 1.645 standard deviations, which enclose 90 % of a "
-               "Gaussian. Use 1.96 for 95 %", {"z": 1.645}),
-    ("two-sigma", "your function uses 2 standard deviations, which enclose 95.4 % of "
-                  "a Gaussian. Use 1.96 for 95 %", {"z": 2.0}),
-    ("ninety-nine", "your function uses 2.576 standard deviations, which enclose 99 % "
-                    "of a Gaussian. Use 1.96 for 95 %", {"z": 2.576}),
+    ("shift-forgotten",
+     "your function uses 1 as the mean of the cube root. Use 1 - c instead, where c is "
+     "the variance of the cube root", {"middle": lambda c: 1.0}),
+    ("shift-sign",
+     "your function uses 1 + c as the mean of the cube root. Use 1 - c instead, where "
+     "c is the variance of the cube root", {"middle": lambda c: 1 + c}),
+    ("ninety",
+     "your function uses 1.645 standard deviations, which enclose 90 % of a Gaussian. "
+     "Use 1.96 standard deviations for 95 %", {"z": 1.645}),
+    ("two-sigma",
+     "your function uses 2 standard deviations, which enclose 95.4 % of a Gaussian. "
+     "Use 1.96 standard deviations for 95 %", {"z": 2.0}),
+    ("ninety-nine",
+     "your function uses 2.576 standard deviations, which enclose 99 % of a Gaussian. "
+     "Use 1.96 standard deviations for 95 %", {"z": 2.576}),
     ("more-digits", "your function uses 1.959964 standard deviations. Use 1.96, as "
                     "in the task",
      {"z": 1.959964}),
-    ("m-cubed", "your code also cubes m. Multiply the cube by m instead",
+    ("m-cubed",
+     "your code multiplies the cube by m^3. Multiply the cube by m instead",
      {"front": lambda n, m: m**3}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(interval, **other))
@@ -56,14 +65,14 @@ for slug, says, other in (
 
 @row.wrongs
 def _(n, m):
-    """normal: your interval m +- 1.96 sqrt(2 m / n) treats the mean NIS as Gaussian.
-      The distribution of the mean NIS is skewed, so compute the interval of its cube
-      root, which is nearly Gaussian
-    one-over-n: your interval m +- 1.96 / sqrt(n) assumes a standard deviation of 1 for
-      each NIS. Use the interval of the cube root instead, because a NIS has a standard
-      deviation of sqrt(2 m) and a skewed distribution
-    cube-inside: your code cubes 1 - c and 1.96 sqrt(c) separately. Cube their sum and
-      their difference
+    """normal: your code uses m +- 1.96 sqrt(2 m / n), which treats the mean NIS as
+      Gaussian. Compute the interval for the cube root instead, because only the cube
+      root is nearly Gaussian
+    one-over-n: your code uses m +- 1.96 / sqrt(n), which assumes a standard deviation
+      of 1 for each NIS. Compute the interval for the cube root instead, because only
+      the cube root is nearly Gaussian
+    cube-inside: your code cubes 1 - c and 1.96 sqrt(c) separately. Cube the sum and the
+      difference of the two instead
     """
     c = 2 / (9 * n * m)
     half = 1.96 * np.sqrt(2 * m / n)

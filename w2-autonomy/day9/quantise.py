@@ -36,29 +36,37 @@ def counted(
 
 
 for slug, says, other in (
-    ("floor", "your code rounds the angle in counts down. Round it to the nearest "
-              "integer instead, because an encoder reports the nearest count",
+    ("floor",
+     "your code rounds the number of counts down. Round the number of counts to the "
+     "nearest integer instead, because an encoder reports the nearest count",
      {"whole": np.floor}),
-    ("towards-zero", "your code rounds the angle in counts towards 0, as int() does. "
-                     "Round it to the nearest integer instead, because an encoder "
-                     "reports the nearest count",
+    ("towards-zero",
+     "your code rounds the number of counts towards 0, as int() does. Round the number "
+     "of counts to the nearest integer instead, because an encoder reports the nearest "
+     "count",
      {"whole": np.trunc}),
-    ("middle-of-a-count", "your code rounds the angle in counts down and adds half a "
-                          "count. Round it to the nearest integer instead, because an "
-                          "encoder reports whole counts",
+    ("middle-of-a-count",
+     "your code rounds the number of counts down and adds half a count. Round the "
+     "number of counts to the nearest integer instead, because an encoder reports "
+     "whole counts",
      {"whole": lambda k: np.floor(k) + 0.5}),
-    ("one-count-fewer", "your code divides a revolution by counts - 1, which omits "
-                        "the step from the last count back to the first. Divide the "
-                        "revolution by `counts`",
+    ("one-count-fewer",
+     "your code divides a revolution by counts - 1. Divide the revolution by `counts` "
+     "instead, because it contains `counts` steps",
      {"step": lambda n: 2 * np.pi / (n - 1)}),
-    ("no-pi", "your angle per count is 1 / counts. It should be 2 pi / counts, "
-              "because one revolution is 2 pi radians", {"step": lambda n: 1 / n}),
-    ("in-degrees", "your angle per count is 360 / counts, in degrees. It should be 2 "
-                   "pi / counts, because q is in radians", {"step": lambda n: 360 / n}),
-    ("step-inverted", "your resolution is counts / (2 pi). The angle per "
-     "count should be 2 pi / counts, because one revolution has `counts` counts",
+    ("no-pi",
+     "your code sets the angle of one count to 1 / counts. Use 2 pi / counts instead, "
+     "because one revolution is 2 pi radians", {"step": lambda n: 1 / n}),
+    ("in-degrees",
+     "your code sets the angle of one count to 360 / counts, in degrees. Use 2 pi / "
+     "counts instead, because q is in radians", {"step": lambda n: 360 / n}),
+    ("step-inverted",
+     "your code sets the angle of one count to counts / (2 pi). Use 2 pi / counts "
+     "instead, because one revolution contains `counts` counts",
      {"step": lambda n: n / (2 * np.pi)}),
-    ("in-counts", "your output is in counts. It should be an angle in radians",
+    ("in-counts",
+     "your code returns the number of counts. Multiply this number by the angle of one "
+     "count to get an angle in radians",
      {"told": lambda k, step: k}),
     ("two-pi-alone", "your code divides the rounded number of counts by 2 pi. "
                      "Multiply this number by the angle of one count instead",
@@ -69,8 +77,8 @@ for slug, says, other in (
 
 @row.wrong
 def the_error(q, counts):
-    """your output is the rounding error. It should be the angle that the encoder
-    reports"""
+    """your code returns the rounding error. Return the angle that the encoder reports
+    instead"""
     return q - counted(q, counts)
 
 

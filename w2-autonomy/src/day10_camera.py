@@ -114,7 +114,7 @@ def projection_jacobian(K: np.ndarray, p_cam: np.ndarray) -> np.ndarray:
         fy * np.array([zero, one, -y / z]),  # the row of v, times z
     )
     by_point = np.array([of_u, of_v]) / z  # the derivatives with respect to the point
-    by_point = np.moveaxis(by_point, 2, 0)  # the same, with one block for each point
+    by_point = np.moveaxis(by_point, 2, 0)  # the derivatives of each point
     return np.concatenate([-by_point @ skew(p_cam), by_point], axis=2)  # the Jacobian
     # endregion 10.4
 
@@ -164,7 +164,7 @@ def refine_pose(
     T = T_guess  # the current pose
     for _ in range(STEPS):
         p_cam = points @ T[:3, :3].T + T[:3, 3]  # the points in the camera frame
-        J = projection_jacobian(K, p_cam).reshape(-1, 6)  # two rows for each point
+        J = projection_jacobian(K, p_cam).reshape(-1, 6)  # the rows, two for each point
         off = (pixels - project(K, T, points)).ravel()  # the reprojection error
         T = apply_twist(T, np.linalg.lstsq(J, off, rcond=None)[0])  # the next pose
     return T  # the pose after the last step
@@ -179,7 +179,7 @@ def pose_covariance(J: np.ndarray, sigma: float) -> np.ndarray:
     of J together are the 6 x 6 identity, and sigma is 2: four times the identity.
     """
     # region 10.7
-    J = J.reshape(-1, 6)  # two rows for each point
+    J = J.reshape(-1, 6)  # the rows, two for each point
     return sigma**2 * np.linalg.inv(J.T @ J)  # the covariance of the twist
     # endregion 10.7
 

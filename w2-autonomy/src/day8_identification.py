@@ -222,18 +222,18 @@ def identify_payload(
 def min_pseudo_inertia_eig(phi: np.ndarray) -> float:
     """Return the smallest eigenvalue of a body's pseudo-inertia matrix.
 
-    phi (10,) holds the inertial parameters. The pseudo-inertia (4, 4) is [[S, h], [h^T,
-    m]] with h = m c and S the sum of m r r^T over the points of the body. S is equal to
-    (tr(I) / 2) E - I, where I is the inertia about the origin and E the identity matrix
-    (Wensing and others, 2018). For a body that can exist the eigenvalue is not
-    negative.
+    phi (10,) holds the inertial parameters. The pseudo-inertia (4, 4) is
+    [[Sigma, h], [h^T, m]] with h = m c and Sigma the sum of m r r^T over the points of
+    the body. Sigma is equal to (tr(I) / 2) E - I, where I is the inertia about the
+    origin and E the identity matrix (Wensing and others, 2018). For a body that can
+    exist the eigenvalue is not negative.
 
     min_pseudo_inertia_eig([1, 0, 0, 0, 1, 1, 3, 0, 0, 0]) -> -0.5
     """
     # region 8.9
     about = spatial_inertia_from_params(phi)[:3, :3]  # the inertia about the origin
     h = phi[1:4, None]  # the first moment of mass
-    spread = np.trace(about) / 2 * np.eye(3) - about  # S, the sum of m r r^T
+    spread = np.trace(about) / 2 * np.eye(3) - about  # Sigma, the sum of m r r^T
     return np.linalg.eigvalsh(  # the smallest eigenvalue
         np.block([[spread, h], [h.T, phi[0]]])
     )[0]

@@ -105,7 +105,7 @@ def low_pass(x: np.ndarray, dt: float, cutoff: float) -> np.ndarray:
     alpha = 1.0 - np.exp(-2.0 * np.pi * cutoff * dt)  # the weight of the new sample
     y = [x[0]]  # the outputs, from the first sample on
     for now in x[1:]:
-        y.append(y[-1] + alpha * (now - y[-1]))  # a step towards the new sample
+        y.append(y[-1] + alpha * (now - y[-1]))  # the step towards the new sample
     return np.array(y)  # the outputs
     # endregion 9.3
 
@@ -172,7 +172,7 @@ def nis_interval(n: int, m: int) -> np.ndarray:
     """
     # region 9.6
     c = 2.0 / (9.0 * n * m)  # the variance of the cube root of chi-square / (n m)
-    off = 1.96 * np.sqrt(c)  # 1.96 standard deviations
+    off = 1.96 * np.sqrt(c)  # the half-width of the interval
     return m * np.array([1.0 - c - off, 1.0 - c + off]) ** 3  # the ends of the interval
     # endregion 9.6
 
@@ -243,7 +243,7 @@ def contact_link(residual: np.ndarray, threshold: np.ndarray) -> int:
     """
     # region 9.10
     felt = np.flatnonzero(np.abs(residual) > threshold)  # the joints over the threshold
-    return int(felt[-1]) + 1 if len(felt) else 0  # the last of them, counted from 1
+    return int(felt[-1]) + 1 if len(felt) else 0  # the last joint, counted from 1
     # endregion 9.10
 
 

@@ -50,8 +50,8 @@ def _(theta, grad, m, v, k, rate):
       Divide m by 1 - 0.9^k and v by 1 - 0.999^k, because both averages start at 0
     corrected-kept: your code returns the corrected averages. Return m and v without the
       correction, because the next step would correct them again
-    eps-in-the-root: your code adds 1e-8 inside the square root. Add it outside instead,
-      after taking the square root
+    eps-in-the-root: your code adds 1e-8 inside the square root. Take the square root
+      first, and then add 1e-8
     betas-swapped: your code swaps the two decay rates. The decay rate of m is 0.9, and
       the decay rate of v is 0.999
     weights-swapped: your code gives the gradient the weight 0.9 and its square the
@@ -61,9 +61,9 @@ def _(theta, grad, m, v, k, rate):
     times-for-power: your code divides the averages by 1 - 0.9 * k and 1 - 0.999 * k.
       Raise the decay rates to the power k instead
     old-averages: your code updates theta with the old averages m and v. Update m and v
-      first
+      before theta
     corrections-swapped: your code divides m by 1 - 0.999^k and v by 1 - 0.9^k. Swap the
-      two corrections, because the decay rate of m is 0.9
+      two corrections, because m has the decay rate 0.9 and v has the decay rate 0.999
     """
     m1 = 0.9 * m + 0.1 * grad
     v1 = 0.999 * v + 0.001 * grad**2

@@ -31,20 +31,20 @@ row.cases(
 
 @row.wrongs
 def _(phi, distance, R):
-    """small-angle: your function returns phi * exp(distance / R), which is correct only
-      for small angles, where sin(phi) is almost phi. Integrate d(phi)/ds = sin(phi) / R
-      instead
+    """small-angle: your code returns phi * exp(distance / R), which is accurate only
+      for small angles. Integrate d(phi)/ds = sin(phi) / R without replacing sin(phi) by
+      phi
     one-step: your code computes phi + distance * sin(phi) / R, as if the rate sin(phi)
       / R were constant. This rate changes along the path, so integrate it
-    whole-angle: your function multiplies tan(phi) by exp(distance / R). Multiply
-      tan(phi / 2) by this factor instead, because d(phi)/ds = sin(phi) / R
+    whole-angle: your code multiplies tan(phi) by exp(distance / R). Multiply tan(phi /
+      2) by this factor instead, because tan(phi / 2) grows exponentially along the path
     linear-growth: your code multiplies tan(phi / 2) by 1 + distance / R. The rate of
-      change of tan(phi / 2) is proportional to its value, so the factor should be an
-      exponential
-    sine-grows: your function multiplies sin(phi) by exp(distance / R), which is correct
+      change of tan(phi / 2) is proportional to tan(phi / 2), so use the factor
+      exp(distance / R) instead
+    sine-grows: your code multiplies sin(phi) by exp(distance / R), which is accurate
       only for small angles. Multiply tan(phi / 2) by this factor instead
-    sine-grows 2: your function multiplies sin(phi) by exp(distance / R), which is
-      correct only for small angles. Multiply tan(phi / 2) by this factor instead
+    sine-grows 2: your code multiplies sin(phi) by exp(distance / R), which is accurate
+      only for small angles. Multiply tan(phi / 2) by this factor instead
     """
     grown = np.sin(phi) * np.exp(distance / R)
     return {

@@ -33,26 +33,31 @@ def _(x):
       exactly 1
     about-0: your second row contains the root mean square of each column. Subtract the
       mean of the column first, so that the result is the standard deviation
-    one-for-all: your code uses one mean and one standard deviation for all columns.
-      Each column has its own unit and its own scale, so use axis=0
-    spread-for-all: your code uses one standard deviation for all columns. Each column
-      has its own unit and its own scale, so use axis=0
-    variance: your second row is the variance. Take the square root of the variance
-    deviation: your second row is the mean absolute deviation. Take the square root of
-      the mean squared deviation instead
+    one-for-all: your code uses one mean and one standard deviation for all columns. The
+      columns can have different units and scales, so compute both for each column with
+      `axis=0`
+    spread-for-all: your code uses one standard deviation for all columns. The columns
+      can have different units and scales, so compute one standard deviation per column
+      with `axis=0`
+    variance: your second row contains the variance of each column. Take the square root
+      of each variance
+    deviation: your second row contains the mean absolute deviation of each column. Take
+      the square root of the mean squared deviation instead
     min-max: your code returns the minimum and the range of each column. Return the mean
       and the standard deviation instead
     constant-0: your code returns a standard deviation of 0 for a constant column, so
       `normalise` would divide by 0. Return 1 for such a column
-    rounded-to-0: your code compares the standard deviation with 0, but rounding can
-      make it about 1e-17 for a constant column. Compare the entries of the column with
-      each other instead
+    rounded-to-0: your code treats a column as constant only if its standard deviation
+      is exactly 0. Rounding can give a constant column a standard deviation of about
+      1e-17, so compare the entries of the column instead
     about-0 2: your second row contains the root mean square of each column. Subtract
       the mean of the column first, so that the result is the standard deviation
     one-for-all 2: your code uses one mean and one standard deviation for all columns.
-      Each column has its own unit and its own scale, so use axis=0
-    spread-for-all 2: your code uses one standard deviation for all columns. Each column
-      has its own unit and its own scale, so use axis=0
+      The columns can have different units and scales, so compute both for each column
+      with `axis=0`
+    spread-for-all 2: your code uses one standard deviation for all columns. The columns
+      can have different units and scales, so compute one standard deviation per column
+      with `axis=0`
     """
     mean = x.mean(axis=0)
     std = x.std(axis=0)

@@ -23,8 +23,8 @@ row = Row(
             "imaginary-lost",
             "Your function is correct for real weights, but it loses the imaginary "
             "part of complex weights. The lab tests your gradient with the complex "
-            "step. Do not use float(), .real or np.maximum, and do not write results "
-            "into an array of real numbers.",
+            "step. Do not use `float()`, `.real` or `np.maximum`, and do not write "
+            "results into an array of real numbers.",
             complex_ones,
         )
     ],

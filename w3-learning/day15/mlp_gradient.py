@@ -69,36 +69,39 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
       respect to the output h of each hidden layer by 1 - h^2 only once
     slope-1-minus-h: your derivative of tanh is 1 - h, where h is the output of a hidden
       layer. Use 1 - h^2 instead
-    slope-logistic: your derivative of tanh is h * (1 - h), which is the derivative of
-      the logistic function. Use 1 - h^2 instead, where h is the output of that hidden
+    slope-logistic: your code uses h * (1 - h), which is the derivative of the logistic
+      function. The derivative of tanh is 1 - h^2, where h is the output of the hidden
       layer
     slope-of-h: your derivative of tanh is 1 - tanh(h)^2, where h is the output of a
       hidden layer. Use 1 - h^2 instead, because h is already the output of tanh
     slope-of-z: your derivative of tanh is 1 - z^2, where z is the argument of tanh. Use
       1 - h^2 instead, where h = tanh(z) is the output of the hidden layer
-    slope-not-passed-on: your gradients with respect to W1 and b1 omit the derivative of
-      the second tanh. Multiply the gradient by 1 - h^2 before you multiply it by W2^T,
-      where h is the output of the second hidden layer
+    slope-not-passed-on: your code omits the derivative of the second tanh from the
+      gradients with respect to W1 and b1. Multiply by 1 - h^2 before you multiply by
+      W2^T, where h is the output of the second hidden layer
     tanh-at-the-end: your code applies tanh to the output. The last layer of `mlp` is
       linear, so omit this tanh
     tanh-at-the-end 2: your code applies tanh to the output and multiplies by its
-      derivative. The last layer of `mlp` is linear, so omit both
+      derivative. The last layer of `mlp` is linear, so omit this tanh and its
+      derivative
     divided-twice: your code divides every gradient by the number of rows a second time.
-      The gradient of the loss already contains the factor 1 / (n * m), so sum over the
-      rows
-    weights-mean: your gradients with respect to the weights are means over the rows.
-      The gradient of the loss already contains the factor 1 / (n * m), so sum over the
-      rows
+      The gradient with respect to the output already contains the factor 1 / (n * m),
+      so sum over the rows without dividing
+    weights-mean: your code takes means over the rows for the gradients with respect to
+      the weights. The gradient with respect to the output already contains the factor 1
+      / (n * m), so sum over the rows without dividing
     slope-at-the-end: your gradient with respect to the output contains a derivative of
       tanh. The last layer is linear, so omit this factor
     transposed: your gradients with respect to the weights are transposed. Each gradient
       should have the shape of its weight matrix
-    bias-mean: your gradients with respect to the biases are means over the rows. The
-      gradient of the loss already contains the factor 1 / (n * m), so sum over the rows
+    bias-mean: your code takes means over the rows for the gradients with respect to the
+      biases. The gradient with respect to the output already contains the factor 1 / (n
+      * m), so sum over the rows without dividing
     summed-loss: your function returns the gradients of the sum of the squared errors.
-      Divide them by n * m, because the loss is the mean of the squared errors
-    rows-only: your code divides the gradient only by the number of rows. Divide it by n
-      * m, because the loss is a mean over rows and columns
+      Divide these gradients by n * m, because the loss is the mean of the squared
+      errors
+    rows-only: your code divides the gradient only by the number of rows. Divide the
+      gradient by n * m, because the loss is a mean over rows and columns
     """
     given = x, target, (W1, b1, W2, b2, W3, b3)
     slopes = {

@@ -25,17 +25,18 @@ row.cases(
 
 @row.wrongs
 def _(pred, target):
-    """summed-over-columns: your code sums the squared errors over the columns and
-      averages only over the rows, also in the gradient. Take the mean over all n * m
-      entries instead
-    summed-over-columns 2: your gradient is correct, but in the loss your code sums the
-      squared errors over the columns. Take the mean over all n * m entries instead
+    """summed-over-columns: your code divides the loss and its gradient only by the
+      number of rows. Divide both by n * m, because the loss is the mean over all
+      entries
+    summed-over-columns 2: your code divides the loss only by the number of rows. Divide
+      the loss by n * m, because it is the mean over all entries. Your gradient is
+      correct
     absolute: your loss is the mean absolute error. Return the mean squared error
       instead
-    not-divided: your gradient is 2 * (pred - target). Divide it by n * m, because the
-      loss is a mean over n * m entries
+    not-divided: your gradient is 2 * (pred - target). Divide this gradient by n * m,
+      because the loss is a mean over n * m entries
     divided-by-rows: your code divides the gradient only by the number of rows. Divide
-      it by n * m, because the loss is a mean over rows and columns
+      the gradient by n * m, because the loss is a mean over rows and columns
     half: your loss and its gradient contain a factor of 1/2. Omit this factor, because
       the loss of this task is the mean of the squared errors
     """

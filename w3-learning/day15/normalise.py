@@ -21,7 +21,7 @@ row.inputs(draw)
 @row.wrong
 def own_statistics(x, scaler):
     """your code computes the mean and the standard deviation from x. Use the argument
-    `scaler` instead, because x may be a single row"""
+    `scaler` instead, so that all data are normalised in the same way"""
     spread = x.std(axis=0)
     return (x - x.mean(axis=0)) / np.where(spread == 0, 1, spread)
 
@@ -29,14 +29,14 @@ def own_statistics(x, scaler):
 @row.wrong
 def first_column(x, scaler):
     """your code uses the mean and the standard deviation of the first column for all
-    columns. Use the whole rows scaler[0] and scaler[1] instead"""
+    columns. Use the whole rows `scaler[0]` and `scaler[1]` instead"""
     return (x - scaler[0, 0]) / scaler[1, 0]
 
 
 @row.wrong(hidden="the lab's checks are on the rows of the training")
 def own_mean(x, scaler):
     """your code subtracts the mean of x. Subtract the mean in the argument `scaler`
-    instead, because x may be a single row"""
+    instead, so that all data are normalised in the same way"""
     return (x - x.mean(axis=0)) / scaler[1]
 
 

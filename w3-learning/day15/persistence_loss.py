@@ -11,9 +11,8 @@ row = Row(
             "^IndexError: boolean index",
             r"np\.diff\(\s*action\s*\)",
             "last-axis",
-            "Your function stops because np.diff(action) takes the differences of "
-            "adjacent columns. Use axis=0, so that it takes the differences of "
-            "adjacent rows.",
+            "Your function stops because `np.diff(action)` takes the differences of "
+            "adjacent columns. Use `axis=0` to take the differences of adjacent rows.",
         ),
     ),
 )
@@ -54,17 +53,16 @@ def _(action, episode):
       action only within an episode
     start-from-0: your code includes the first row of each episode and uses 0 as its
       previous action. Omit this row, because it has no previous action
-    counted-as-0: your code sets the change from the last row of an episode to the first
-      row of the next to 0, but still includes it in the mean. Exclude each such pair of
-      rows from the mean
+    counted-as-0: your code replaces the change from one episode to the next by 0, but
+      keeps this 0 in the mean. Exclude this pair of rows from the mean instead
     summed-over-columns: your code sums the squared changes over the columns. Take the
       mean over the columns instead, as `mse` does
-    mean-of-means: your code computes the mean over each episode, and then averages
-      these means. Take one mean over all pairs instead, so that each pair has the same
-      weight
-    mean-of-means 2: your code computes the mean over each episode, and then averages
-      these means. Take one mean over all pairs instead, so that each pair has the same
-      weight
+    mean-of-means: your code computes the mean squared change of each episode and then
+      averages these means. Take one mean over all squared changes instead, so that each
+      change has the same weight
+    mean-of-means 2: your code computes the mean squared change of each episode and then
+      averages these means. Take one mean over all squared changes instead, so that each
+      change has the same weight
     mean-action: your result is the loss of a policy that always returns the mean
       action. Use the action of the previous row as the prediction instead
     divided-by-all: your code divides the sum of the squared changes by the number of

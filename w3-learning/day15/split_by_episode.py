@@ -31,24 +31,24 @@ def _(rng):
     }
 )
 def _(episode, held_out):
-    """rows-for-episodes: your code uses the entries of held_out as row indices. These
-      entries are episode numbers, so hold out every row whose entry in `episode` is one
-      of these numbers
-    as-many-rows: your code holds out the last len(held_out) rows, which can split an
+    """rows-for-episodes: your code uses the entries of `held_out` as row indices. These
+      entries are episode numbers, so hold out each row whose entry in `episode` is in
+      `held_out`
+    as-many-rows: your code holds out the last `len(held_out)` rows, which can split an
       episode. Hold out all rows of each held-out episode instead
     sixty-rows: your code divides the row index by 60 to obtain the episode number. Use
       the numbers in `episode` instead, because an episode need not have 60 rows
-    training-rows: your mask is True for the training rows. It should be True for the
-      rows that are held out
+    training-rows: your function returns True for the training rows. Return True for the
+      held-out rows instead
     swapped: your code swaps the arguments of `np.isin`, so the result has one entry per
       held-out episode. Return one entry per row
     indices: your code returns the indices of the held-out rows. Return a mask instead,
       with True or False for every row
     as-a-range: your code holds out all episodes from the smallest to the largest number
-      in held_out. Hold out only the episodes whose numbers are in held_out
+      in `held_out`. Hold out only the episodes whose numbers are in `held_out`
     positions: your code renumbers the episodes as 0, 1, 2, ... in ascending order and
-      compares the new numbers with held_out. Compare the original numbers in `episode`
-      instead
+      compares the new numbers with `held_out`. Compare the original numbers in
+      `episode` instead
     """
     rows = np.arange(len(episode))
     return {

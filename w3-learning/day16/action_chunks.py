@@ -64,42 +64,44 @@ def chunks(action, inside, ahead=0):
     }
 )
 def _(action, episode, K):
-    """crosses-episodes: your chunks continue with actions of the next episode. Set the
-      entries after the end of the row's own episode, and their mask, to 0
-    starts-next: your chunks begin with the action of the next row. Entry 0 of chunk i
-      should be the action of row i itself
-    wraps: your chunks wrap around from the last row of the data to the first row. Set
-      the entries after the end of the row's own episode, and their mask, to 0
+    """crosses-episodes: your code fills the end of a chunk with actions of the next
+      episode. Set the entries after the end of the row's own episode, and their mask,
+      to 0
+    starts-next: your code begins chunk i with the action of row i + 1. Entry 0 of chunk
+      i should be the action of row i
+    wraps: your code fills the entries after the last row of the data with actions of
+      the first rows. Set the entries after the end of the row's own episode, and their
+      mask, to 0
     by-number-only: your code treats all rows with the same episode number as one
       episode. A later episode can have the same number, so begin a new episode wherever
       the number changes
-    mask-all-ones: your mask is 1 everywhere. Set it to 0 for the entries after the end
-      of the row's episode
+    mask-all-ones: your mask is 1 everywhere. The mask should be 0 for the entries after
+      the end of the row's own episode
     held: your code repeats the last action of an episode in the entries after its end.
       Set these entries to 0 instead
-    wraps-within: your chunks wrap around from the last row of an episode to its first
-      row. Set the entries after the end of the episode, and their mask, to 0
+    wraps-within: your code fills the entries after the end of an episode with its first
+      actions. Set these entries, and their mask, to 0
     past: your code uses the action of row i - j as entry j of chunk i. Use the action
       of row i + j instead
-    mask-swapped: your mask is inverted. It should be 1 for the entries that exist and 0
-      for all others
-    mask-of-rows: your code sets the whole mask of an incomplete chunk to 0. Set it to 0
-      only for the entries after the end of the episode
-    ends-the-data 2: your chunks continue with actions of the next episode. Set the
-      entries after the end of the row's own episode to 0
-    wraps 2: your chunks wrap around from the last row of the data to the first row. Set
-      the entries after the end of the row's own episode, and their mask, to 0
-    last-row-dropped: your chunks end one row before the end of the episode. Include the
-      action of the last row, because this row belongs to the episode
-    last-row-dropped 2: your mask is 0 for the action of an episode's last row. Set it
-      to 1, because this action exists
-    only-entry-0: your chunks contain only entry 0, and all later entries are 0. Use the
-      action of row i + j as entry j if this row belongs to the same episode
+    mask-swapped: your mask is inverted. The mask should be 1 for the entries that exist
+      and 0 for all others
+    mask-of-rows: your code sets the whole mask of an incomplete chunk to 0. Set only
+      the mask of the entries after the end of the episode to 0
+    ends-the-data 2: your code fills the end of a chunk with actions of the next
+      episode. Set these entries to 0. Your mask is correct
+    wraps 2: your code fills the entries after the last row of the data with actions of
+      the first rows. Set the entries after the end of the row's own episode, and their
+      mask, to 0
+    last-row-dropped: your code omits the action of an episode's last row from the
+      chunks. Include this action, because the row belongs to the episode
+    last-row-dropped 2: your mask is 0 for the action of an episode's last row. The mask
+      should be 1 for this entry, because the action exists
+    only-entry-0: your code fills only entry 0 of each chunk. Use the action of row i +
+      j as entry j if row i + j belongs to the same episode
     blocks: your code uses the same chunk for K successive rows. The chunk of each row
       should begin with the action of that row
-    neighbours-only: your code sets entry j to 0 only where a new episode begins. Set
-      all later entries of the chunk to 0 as well, because they do not belong to the
-      episode of row i
+    neighbours-only: your code sets a later entry to 0 only if its row begins an
+      episode. Set all entries after the end of the episode to 0
     only-larger: your code begins a new episode only where the number increases. Begin a
       new episode wherever the number changes
     """

@@ -18,8 +18,8 @@ row = Row(
             "overflows",
             "Your function is correct for small products, but it returns NaN for large "
             "products. The exponentials of a row overflow, or all of them are 0. "
-            "Subtract the largest entry of each row before you call exp, which does "
-            "not change the weights.",
+            "Subtract the largest entry of each row before you call exp. This "
+            "subtraction does not change the weights.",
             long_queries,
         )
     ],
@@ -51,9 +51,8 @@ row.cases(
 def _(q, k, v):
     """wrong-axis: your softmax normalises over the queries. Normalise over the keys
       instead, so that the weights of each query sum to 1
-    one-softmax: your softmax normalises all weights together, so that they sum to 1
-      over all queries. Normalise each row separately, so that the weights of each query
-      sum to 1
+    one-softmax: your softmax normalises the weights of all queries together. Normalise
+      each row separately, so that the weights of each query sum to 1
     no-softmax: your code uses the scaled products of queries and keys as weights. Apply
       the softmax to each row of these products first
     best-only: your function returns the value of the key with the largest product.

@@ -39,38 +39,39 @@ row.cases(
 
 @row.wrongs
 def _(dz, mu, logvar, noise, beta):
-    """noise-forgotten: your gradient with respect to logvar omits the noise. Multiply
-      dz by noise * exp(logvar / 2) / 2, which is the derivative of the sample with
-      respect to logvar
+    """noise-forgotten: your code omits the noise in the gradient with respect to
+      logvar. Multiply dz by noise * exp(logvar / 2) / 2, which is the derivative of the
+      sample with respect to logvar
     kl-not-divided: your code uses the sum of the divergences over the rows. Divide the
       derivatives of this sum by n, because the loss contains the mean over the rows
     kl-not-divided 2: your code divides the derivatives of the divergence by the number
-      of all entries, n * z. Divide them by n only, because the loss sums the divergence
-      over the z columns
+      of all entries, n * z. Divide these derivatives by n only, because the loss sums
+      the divergence over the z columns
     dz-divided: your code divides dz by n. Omit this division, because dz is already the
       gradient of the decoder's loss
     dz-not-passed-on: your gradient with respect to logvar contains only the derivative
       of the divergence. Add dz times the derivative of the sample with respect to
       logvar, because the sample also depends on logvar
     by-the-std: your second result is the gradient with respect to the standard
-      deviation. Multiply it by exp(logvar / 2) / 2, which is the derivative of the
-      standard deviation with respect to logvar
+      deviation. Multiply this gradient by exp(logvar / 2) / 2, which is the derivative
+      of the standard deviation with respect to logvar
     by-the-std 2: your code multiplies dz by the derivative of the sample with respect
       to the standard deviation. Multiply this product by exp(logvar / 2) / 2, which is
       the derivative of the standard deviation with respect to logvar
-    sample-for-noise: your code multiplies dz by half of the sample. Multiply it by
+    sample-for-noise: your code multiplies dz by half of the sample. Multiply dz by
       noise * exp(logvar / 2) / 2 instead, which is the derivative of the sample with
       respect to logvar
     sample-for-noise 2: your gradient with respect to logvar contains dz times the
-      sample. Use the noise instead of the sample, because mu does not depend on logvar
-    beta-forgotten: your gradient with respect to logvar contains the derivative of the
-      divergence without the factor beta. Multiply this derivative by beta, because the
-      loss contains beta times the divergence
-    beta-forgotten 2: your gradients contain the derivatives of the divergence without
-      the factor beta. Multiply these derivatives by beta, because the loss contains
-      beta times the divergence
-    not-differentiated: your gradients contain the divergence itself. Use its
-      derivatives with respect to mu and logvar instead
+      sample. Use the noise instead of the sample, because the derivative of the sample
+      with respect to logvar does not contain mu
+    beta-forgotten: your code omits the factor beta in the gradient with respect to
+      logvar. Multiply the derivative of the divergence by beta, because the loss
+      contains beta times the divergence
+    beta-forgotten 2: your code omits the factor beta in both gradients. Multiply the
+      derivatives of the divergence by beta, because the loss contains beta times the
+      divergence
+    not-differentiated: your gradients contain the divergence itself. Use the
+      derivatives of the divergence with respect to mu and logvar instead
     not-differentiated 2: your gradient with respect to mu contains mu^2 / 2, which is a
       term of the divergence itself. Use the derivative of this term instead
     """

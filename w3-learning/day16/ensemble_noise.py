@@ -26,15 +26,14 @@ row.cases(
 
 @row.wrongs
 def _(k, decay):
-    """equal-weights: your function returns 1 / sqrt(k), which is correct for equal
-      weights only. Use the weights of `temporal_ensemble`, add the variances of the
-      weighted errors, and take the square root of their sum
-    sum-not-squared: your function returns 1, because it does not square the weights.
-      Sum the squares of the weights instead, because the variance of each error is
-      multiplied by the square of its weight
+    """equal-weights: your function returns 1 / sqrt(k), which is correct only for equal
+      weights. Add the variances of the weighted errors instead, and take the square
+      root of their sum
+    sum-not-squared: your function returns the sum of the weights, which is always 1.
+      Sum the squared weights instead, and take the square root of this sum
     effective-number: your function returns 1 / sum(w^2) for the weights w, which is the
-      effective number of plans. Return the square root of sum(w^2) instead, because
-      this is the standard deviation of the weighted error
+      effective number of plans. Return the square root of sum(w^2) instead, which is
+      the standard deviation of the weighted mean
     spread-of-the-weights: your function returns the standard deviation of the weights.
       Add the variances of the weighted errors instead, and take the square root of
       their sum

@@ -52,11 +52,11 @@ row.cases(
 @row.wrongs
 def _(pred, target, mask):
     """divided-by-all: your code divides the sum of the absolute errors by n * K * m,
-      which also counts the padded entries. Divide it by m times the sum of the mask
-      instead
-    mask-forgotten: your code includes the padded entries in the mean, although they
-      have no target. Multiply the absolute errors by the mask, and divide their sum by
-      m times the sum of the mask
+      which also counts the padded entries. Divide this sum by m times the sum of the
+      mask instead
+    mask-forgotten: your code averages over all entries, including the padding. Multiply
+      the absolute errors by the mask, and divide their sum by m times the sum of the
+      mask
     loss-unmasked: your gradient is correct, but your loss is the mean over all entries,
       including the padding. Multiply the absolute errors by the mask, and divide their
       sum by m times the sum of the mask
@@ -65,17 +65,17 @@ def _(pred, target, mask):
       on the loss
     squared: your function computes the mean squared error and its gradient. Use the
       absolute values of the errors instead of their squares
-    mean-of-means: your code computes the mean absolute error of each row, and then
+    mean-of-means: your code computes the mean absolute error of each chunk and then
       averages these means. Take one mean over all existing entries instead, so that
       each entry has the same weight
-    gradient-not-divided: your gradient is the sign of each existing error. Divide it by
-      m times the sum of the mask, as in the loss
+    gradient-not-divided: your gradient is the sign of each existing error. Divide these
+      signs by m times the sum of the mask, as in the loss
     divided-by-rows: your code divides the sum of the absolute errors by the number of
-      rows. Divide it by m times the sum of the mask instead, which is the number of
-      existing errors
+      rows. Divide this sum by m times the sum of the mask instead, which is the number
+      of existing errors
     gradient-by-all: your loss is correct, but your code divides the gradient by the
-      total number of entries, including the padding. Divide it by m times the sum of
-      the mask, as in the loss
+      number of all entries, including the padding. Divide the gradient by m times the
+      sum of the mask, as in the loss
     not-0-at-0: your gradient is not 0 where the error is 0. Use 0 as the derivative of
       |e| at 0, as `np.sign` does
     not-0-at-0 2: your gradient is not 0 where the error is 0. Use 0 as the derivative

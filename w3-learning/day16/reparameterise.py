@@ -24,8 +24,8 @@ row.cases(
 
 @row.wrongs
 def _(mu, logvar, noise):
-    """exp-of-logvar: your code multiplies the noise by the variance. Multiply it by the
-      standard deviation instead, which is the square root of the variance
+    """exp-of-logvar: your code multiplies the noise by the variance. Multiply the noise
+      by the standard deviation instead, which is the square root of the variance
     base-2: your code treats logvar as a base-2 logarithm. Use exp instead of powers of
       2, because logvar is the natural logarithm of the variance
     logvar-as-std: your code multiplies the noise by logvar, which is the logarithm of

@@ -22,11 +22,11 @@ row.cases(
 
 @row.wrongs
 def _(wait, K):
-    """majority: your function returns the median over the rows, which is 1 if the
-      motion has started in more than half of the rows. Return the fraction of the rows
-      in which the motion has started instead
-    wait-not-plus-1: your code divides j + 1 by `wait`. Divide it by wait + 1 instead,
-      because wait + 1 rows have the same observation
+    """majority: your function returns 1 if the entry is at full speed in more than half
+      of the rows, and 0 otherwise. Return the fraction of the rows in which the entry
+      is at full speed
+    wait-not-plus-1: your code divides j + 1 by `wait`. Divide j + 1 by wait + 1
+      instead, because wait + 1 rows have the same observation
     not-clamped: your function returns fractions above 1. Limit each fraction to 1,
       because the motion has started in all rows from entry `wait` on
     one-jump: your function returns the chunk of the first row, which is 0 before entry
@@ -41,7 +41,7 @@ def _(wait, K):
       observation
     one-entry-early: your function returns (j + 2) / (wait + 1). Use j + 1 instead of j
       + 2, because entry 0 is at full speed in one row only
-    independent-starts: your formula assumes that the motion starts with probability 1 /
+    independent-starts: your code assumes that the motion starts with probability 1 /
       (wait + 1) in each step. The pause has a fixed number of steps, so count the rows
       in which at most j steps remain
     all-started: your function returns 1 for every entry. Return the fraction of the
@@ -49,9 +49,9 @@ def _(wait, K):
     still-waiting: your function returns the fraction of the rows in which the motion
       has not started by entry j. Subtract this fraction from 1
     stretched: your code increases the fraction linearly up to the last entry. Increase
-      it by 1 / (wait + 1) per entry instead, until it is 1 at entry `wait`
+      the fraction by 1 / (wait + 1) per entry instead, up to 1 at entry `wait`
     stretched 2: your code increases the fraction linearly up to the last entry.
-      Increase it by 1 / (wait + 1) per entry instead, until it is 1 at entry `wait`
+      Increase the fraction by 1 / (wait + 1) per entry instead, up to 1 at entry `wait`
     """
     j = np.arange(K)
     right = np.minimum(1, (j + 1) / (wait + 1))

@@ -12,8 +12,8 @@ row = Row(
             r"abar",
             "one-per-row",
             "Your function stops because it multiplies abar, of shape (n,), by an "
-            "array of shape (n, d). Make abar a column, abar[:, None], because it has "
-            "one number per row.",
+            "array of shape (n, d). Make abar a column, `abar[:, None]`, because abar "
+            "has one number per row.",
         ),
     ),
 )
@@ -38,10 +38,12 @@ row.at_least_0(abar="a fraction")
 
 @row.wrongs
 def _(x0, noise, abar):
-    """roots-forgotten: your code uses the factors abar and 1 - abar. Use their square
-      roots instead, because abar and 1 - abar are fractions of the power
+    """roots-forgotten: your code uses the factors abar and 1 - abar. Use the square
+      roots of these factors instead, because abar and 1 - abar are fractions of the
+      power
     noise-root-forgotten: your code multiplies the noise by 1 - sqrt(abar). Use sqrt(1 -
-      abar) instead, because the squares of the two factors should sum to 1
+      abar) instead, because the squares of the factors of data and noise should sum to
+      1
     abar-as-factor: your code uses the factors abar and sqrt(1 - abar^2). Use sqrt(abar)
       and sqrt(1 - abar) instead, because abar is a fraction of the power
     """

@@ -31,21 +31,21 @@ row.at_least_0(T="a number of levels", answer="fractions")
 @row.wrongs
 def _(T):
     """linear: your function returns the linear schedule, with beta from 0.0001 to 0.02.
-      Use the cosine schedule instead, because with few levels the linear schedule
-      leaves much of the signal at the end
+      Use the cosine schedule instead. With few levels, the linear schedule leaves much
+      of the data's power at the noisy end
     no-square: your code uses the cosine as f. Use the square of the cosine instead,
-      because f is a fraction of the power
+      because f is proportional to the power that is left
     no-offset: your code omits the offset in f. Replace t / T by (t / T + 0.008) / 1.008
-    no-cap: your code does not limit beta, so the last abar is 0 up to rounding. Limit
-      beta to 0.999, because a sampler divides by the square root of abar
+    no-cap: your code does not limit beta, so abar is about 0 at the noisiest level.
+      Limit beta to at most 0.999, because a sampler divides by the square root of abar
     from-level-0: your code computes abar of level t as f(t) / f(0), so level 0 has no
-      noise. Multiply the factors 1 - beta up to and including level t, because level t
-      ends at f(t + 1)
-    from-level-0 2: your code computes abar of level t as f(t), so level 0 has nearly no
-      noise. Multiply the factors 1 - beta up to and including level t, because level t
-      ends at f(t + 1)
+      noise. Multiply the factors 1 - beta of levels 0 to t instead, because level t
+      also removes power
+    from-level-0 2: your code uses f(t) as abar of level t, so level 0 has almost no
+      noise. Multiply the factors 1 - beta of levels 0 to t instead, because level t
+      also removes power
     betas: your function returns beta, the fraction of the power that each level
-      removes. Return the product of 1 - beta over each level and all levels before it
+      removes. Return the product of the factors 1 - beta of levels 0 to t instead
     beta-of-the-start: your code computes beta as f(t) - f(t + 1). Divide this
       difference by f(t), because level t removes a fraction of the power that is left
     betas-added: your code adds the values of beta and subtracts their sum from 1.

@@ -29,8 +29,9 @@ row.at_least_0(abar="a fraction", prev="a fraction")
 def _(x, eps, abar, prev):
     """noise-not-put-back: your function returns sqrt(prev) times the clean samples. Add
       sqrt(1 - prev) * eps, because samples at the level prev also contain noise
-    clean-returned: your function returns the clean samples. Multiply them by sqrt(prev)
-      and add sqrt(1 - prev) * eps, because samples at the level prev also contain noise
+    clean-returned: your function returns the clean samples. Multiply these samples by
+      sqrt(prev) and add sqrt(1 - prev) * eps, because samples at the level prev also
+      contain noise
     prev-not-rooted: your code multiplies the clean samples by prev and eps by 1 - prev.
       Use the square roots of these factors instead, because prev is a fraction of the
       power

@@ -38,22 +38,22 @@ def _(slow, fast, k):
       weight of the old average. Use the smaller number instead, so that the weight of
       the initial parameters decreases quickly
     always-0995: your code always gives the old average the weight 0.995. Use (1 + k) /
-      (10 + k) while it is smaller, so that the weight of the initial parameters
+      (10 + k) if this number is smaller, so that the weight of the initial parameters
       decreases quickly
-    never-0995: your code does not limit the weight of the old average. Limit it to
-      0.995, because otherwise the average follows the new parameters more and more
-      slowly
+    never-0995: your code does not limit the weight of the old average. Limit this
+      weight to 0.995, because otherwise the average follows the new parameters more and
+      more slowly
     average-before: your code uses k / (9 + k) as the weight of the old average. Use (1
       + k) / (10 + k) instead, so that this weight is 1 / 10 in the first call, where k
       = 0
-    decay-0: your function returns the new parameters, because the weight of the old
-      average is 0. This weight should be (1 + k) / (10 + k). Compute it with / and not
-      with //, which rounds it down to 0
+    decay-0: your function returns the new parameters, so the weight of the old average
+      is 0. Compute this weight as (1 + k) / (10 + k), with `/` and not with `//`
     plain-mean 2: your code uses k / (k + 1) as the weight of the old average, as in the
-      mean of all new parameters. Use (1 + k) / (10 + k) instead, but at most 0.995
-    plain-mean: your function returns the mean of all parameters so far, where the old
-      average has the weight (k + 1) / (k + 2). Use (1 + k) / (10 + k) instead, but at
-      most 0.995
+      mean of all new parameters. Use the weight (1 + k) / (10 + k) instead, but at most
+      0.995
+    plain-mean: your function returns the mean of all parameters so far, with the weight
+      (k + 1) / (k + 2) of the old average. Use the weight (1 + k) / (10 + k) instead,
+      but at most 0.995
     """
     grows = (1 + k) / (10 + k)
 

@@ -34,25 +34,25 @@ def _(x, abar, means, sigma, weights):
       Use abar * sigma^2 + 1 - abar instead, because the data in a mode have the
       variance sigma^2
     data-width-forgotten 2: your code divides the mean deviation of x from the noisy
-      means by sqrt(1 - abar). Multiply it by sqrt(1 - abar) / (abar * sigma^2 + 1 -
-      abar) instead, because the data also contribute to the deviation
+      means by sqrt(1 - abar). Multiply this deviation by sqrt(1 - abar) / (abar *
+      sigma^2 + 1 - abar) instead
     data-width-forgotten 3: your code uses the variance 1 - abar in the exponent. Use
       abar * sigma^2 + 1 - abar instead, which is the variance of each noisy mode
-    x-not-deviation: your code multiplies x by sqrt(1 - abar) divided by the variance.
-      Replace x by its mean deviation from the noisy means, weighted by the
+    x-not-deviation: your code multiplies x itself by sqrt(1 - abar) / variance.
+      Multiply the mean deviation of x from the noisy means instead, weighted by the
       probabilities of the modes given x
     nearest-mode: your code uses only the mode nearest to each row. Return the mean
       noise over all modes instead, weighted by the probabilities of the modes given x
     nearest-mode 2: your code assigns each row only to its most probable mode. Return
       the mean noise over all modes instead, weighted by the probabilities of the modes
       given x
-    weights-only: in your code, the probabilities of the modes do not depend on x.
-      Multiply the weight of each mode by its density at x, and normalise the products
+    weights-only: your code uses the weights of the modes as their probabilities given
+      x. Multiply each weight by the density of its mode at x, and normalise the
+      products
     clean: your function returns the mean of the data given x. Return the mean of the
       noise given x instead
-    score: your function returns the score, which is the gradient of the logarithm of
-      the density with respect to x. Multiply it by -sqrt(1 - abar) to obtain the mean
-      of the noise
+    score: your function returns the score, which is the gradient of ln p(x). Multiply
+      the score by -sqrt(1 - abar) to obtain the mean of the noise
     overflow: your function returns NaN for a row far from all modes, because all
       densities of the row underflow to 0. Subtract the largest exponent of each row
       before you call exp
@@ -64,8 +64,8 @@ def _(x, abar, means, sigma, weights):
     over-all-rows 2: your code normalises the probabilities over all rows together.
       Normalise each row separately, so that the probabilities of each row sum to 1
     per-coordinate: your code computes separate probabilities for each coordinate of a
-      row. Sum the squared deviations over the coordinates in the exponent, because a
-      row belongs to one mode as a whole
+      row. Sum the squared deviations over the coordinates in the exponent, because all
+      coordinates of a row belong to the same mode
     overflow 3: your code subtracts the largest exponent of each mode over all rows,
       which changes the probabilities. Subtract the largest exponent of each row over
       all modes instead

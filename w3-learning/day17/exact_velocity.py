@@ -44,16 +44,17 @@ def _(x, t, means, sigma, weights):
       mode
     distance-so-far: your function returns the mean displacement from the noise to x.
       Return the mean velocity instead, which is the mean of data - noise given x
-    division-by-0 2: your code divides by t, which is 0 at the start. Use the formula of
-      the conditional mean instead, which divides only by the variance of x in each mode
+    division-by-0 2: your code divides by t, which is 0 at t = 0. Use the formula of the
+      conditional mean instead, which divides only by the variance of x in each mode
     nearest-mode: your code uses only the mode nearest to each row. Return the mean
       velocity over all modes instead, weighted by the probabilities of the modes
       given x
     nearest-mode 2: your code assigns each row only to its most probable mode. Return
       the mean velocity over all modes instead, weighted by the probabilities of the
       modes given x
-    weights-only: in your code, the probabilities of the modes do not depend on x.
-      Multiply the weight of each mode by its density at x, and normalise the products
+    weights-only: your code uses the weights of the modes as their probabilities given
+      x. Multiply each weight by the density of its mode at x, and normalise the
+      products
     clean: your function returns the mean of the data given x. Return the mean of data -
       noise given x instead
     minus-x: your function returns the mean displacement from x to the data. Return the
@@ -61,16 +62,15 @@ def _(x, t, means, sigma, weights):
     covariance-squared: your code uses t^2 * sigma^2 - (1 - t)^2 as the covariance of x
       and the velocity. Use t * sigma^2 - (1 - t) instead, because the velocity is data
       - noise
-    variance-not-squared: your code uses t * sigma^2 + 1 - t as the variance of x. Use
-      t^2 * sigma^2 + (1 - t)^2 instead, because the variance contains the squares of
-      the factors of data and noise
-    noisy-means: your code uses t times the mode's mean as the mean velocity in a mode.
-      Use the mode's mean itself instead, because t times the mode's mean is the mean of
-      x
+    variance-not-squared: your code uses t * sigma^2 + 1 - t as the variance of x in
+      each mode. Use t^2 * sigma^2 + (1 - t)^2 instead, because the variance contains
+      the squares of the factors of data and noise
+    noisy-means: your code uses t * mu as the mean of the velocity in a mode, where mu
+      is the mean of the mode. Use mu instead, because the mean of the noise is 0
     division-by-0: your code divides by 1 - t, which is 0 at t = 1. Use the formula of
       the conditional mean instead, which divides only by the variance of x in each mode
-    means-only: your code uses the mode's mean as the velocity in a mode. Add (x - t *
-      mean) * covariance / variance, where mean is the mode's mean
+    means-only: your code uses the mean mu of a mode as the velocity in this mode. Add
+      (x - t * mu) * covariance / variance, because the velocity also depends on x
     time-reversed: your code uses the factor 1 - t for the data and t for the noise.
       Swap these factors, because x is the noise at t = 0 and the data at t = 1
     diffusion-roots: your code uses the factor sqrt(t) for the data and sqrt(1 - t) for
@@ -86,8 +86,8 @@ def _(x, t, means, sigma, weights):
     over-all-rows 2: your code normalises the probabilities over all rows together.
       Normalise each row separately, so that the probabilities of each row sum to 1
     per-coordinate: your code computes separate probabilities for each coordinate of a
-      row. Sum the squared deviations over the coordinates in the exponent, because a
-      row belongs to one mode as a whole
+      row. Sum the squared deviations over the coordinates in the exponent, because all
+      coordinates of a row belong to the same mode
     overflow 3: your code subtracts the largest exponent of each mode over all rows,
       which changes the probabilities. Subtract the largest exponent of each row over
       all modes instead

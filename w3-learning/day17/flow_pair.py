@@ -15,8 +15,8 @@ row = Row(
             r"\bt\b",
             "one-per-row",
             "Your function stops because it multiplies t, of shape (n,), by an array "
-            "of shape (n, d). Make t a column, t[:, None], because it has one "
-            "number per row.",
+            "of shape (n, d). Make t a column, `t[:, None]`, because t has one number "
+            "per row.",
         ),
     ),
 )
@@ -39,20 +39,20 @@ def _(x0, noise, t):
       diffusion. Use t and 1 - t instead, because the point moves along a straight line
     time-reversed: your point is the data at t = 0 and the noise at t = 1. Swap the
       factors t and 1 - t, because the point should move from the noise to the data
-    other-convention: your point moves from the data to the noise, as in some papers. In
-      this task the point moves from the noise to the data. Swap the factors t and 1 -
-      t, and negate the velocity
+    other-convention: your point moves from the data to the noise. Swap the factors t
+      and 1 - t, and negate the velocity, because the point should move from the noise
+      to the data
     to-go: your velocity is the displacement from the point to the data. Use the
-      displacement from the noise to the data instead, because the point covers it
-      between t = 0 and t = 1
+      displacement from the noise to the data instead, because the point covers this
+      displacement between t = 0 and t = 1
     distance-so-far: your velocity is the displacement from the noise to the point. Use
-      the displacement from the noise to the data instead, because the point covers it
-      between t = 0 and t = 1
+      the displacement from the noise to the data instead, because the point covers this
+      displacement between t = 0 and t = 1
     divided-by-the-rest: your code divides x0 - noise by 1 - t. Omit this division,
       because the point moves by x0 - noise between t = 0 and t = 1
-    division-by-0: your code divides the displacement from the noise by t, which gives 0
-      / 0 at t = 0. Compute the velocity directly from the data and the noise, without a
-      division
+    division-by-0: your code divides the displacement from the noise to the point by t,
+      which gives 0 / 0 at t = 0. Compute the velocity from the data and the noise,
+      without a division
     """
     t = t[:, None]
     at = (1 - t) * noise + t * x0

@@ -28,28 +28,29 @@ row.at_least_0(T="a number of levels", n="a number of steps", answer="levels")
 
 @row.wrongs
 def _(T, n):
-    """leading: your levels are multiples of T // n, so the noisiest level, T - 1, is
-      missing. Use n equally spaced numbers from T - 1 to 0, and round them
-    trailing: your levels decrease from T - 1 in steps of T / n, so the last level is
-      not 0. Use n equally spaced numbers from T - 1 to 0, and round them
-    whole-steps: your levels decrease in steps of T // n, so their number is not always
-      n, and level 0 may be missing. Use n equally spaced numbers from T - 1 to 0, and
-      round them
+    """leading: your code uses multiples of T // n as levels, so the noisiest level, T -
+      1, can be missing. Use n equally spaced numbers from T - 1 to 0, and round them
+    trailing: your code decreases the level in steps of T / n, so the last level is not
+      always 0. Use n equally spaced numbers from T - 1 to 0, and round them
+    whole-steps: your code decreases the level in steps of T // n, so the number of
+      levels is not always n. Use n equally spaced numbers from T - 1 to 0, and round
+      them
     whole-steps 2: your code rounds the distance between levels down, so the last level
       is not always 0. Use n equally spaced numbers from T - 1 to 0, and round them
-    endpoint-missing: your levels decrease in steps of (T - 1) / n, so the last level is
-      not 0. Divide T - 1 by n - 1 instead, because n levels have n - 1 intervals
-      between them
-    ascending: your levels are in ascending order. Return them in descending order,
-      because a sampler starts at the noisiest level, T - 1
+    endpoint-missing: your code decreases the level in steps of (T - 1) / n, so the last
+      level is not 0. Divide T - 1 by n - 1 instead, because n levels have n - 1
+      intervals between them
+    ascending: your function returns the levels in ascending order. Return the levels in
+      descending order, because a sampler starts at the noisiest level, T - 1
     one-step-at-0: your function returns level 0 for n = 1. Return T - 1 instead,
       because a sampler always starts at the noisiest level
-    rounded-down: your code rounds the levels down. Round them to the nearest whole
+    rounded-down: your code rounds the levels down. Round the levels to the nearest
+      whole number instead
+    rounded-up: your code rounds the levels up. Round the levels to the nearest whole
       number instead
-    rounded-up: your code rounds the levels up. Round them to the nearest whole number
-      instead
-    not-rounded: your function does not round the levels. Round them to the nearest
-      whole number, because the sampler uses them as indices into the schedule
+    not-rounded: your function does not round the levels. Round the levels to the
+      nearest whole number, because the sampler uses the levels as indices into the
+      schedule
     """
     even = np.linspace(T - 1, 0, n)
     return {

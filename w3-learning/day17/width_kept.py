@@ -33,20 +33,21 @@ row.at_least_0(abars="fractions", sigma="a standard deviation", answer="a fracti
     }
 )
 def _(abars, sigma):
-    """width-forgotten: at each level, your code uses the vector (sqrt(abar), sqrt(1 -
-      abar)). Multiply the first entry by sigma, because the standard deviation of the
-      signal is sigma sqrt(abar)
+    """width-forgotten: your code uses the vector (sqrt(abar), sqrt(1 - abar)) at each
+      level. Multiply the first entry by sigma, because the standard deviation of the
+      signal is sigma * sqrt(abar)
     first-and-last-only: your function returns the cosine of the angle between the first
-      and the last direction. Each step multiplies the width by the cosine of its own
-      angle, so return the product of these cosines
+      and the last direction. Return the product of the cosines of all steps instead,
+      because each step multiplies the width by the cosine of its angle
     last-step-forgotten: your code omits the step from the last level to abar = 1.
       Multiply the result by the cosine of this step as well
     last-step-forgotten 2: your code omits the step from the last level to abar = 1 if
-      there are several levels. Multiply the result by the cosine of this step as well
-    last-level-0: your last step leads to abar = 0, which is pure noise. This step
-      should lead to abar = 1, which is the data without noise
-    last-level-first: your code puts abar = 1 before the other levels. Put it after the
-      other levels instead, because the last step leads to abar = 1
+      `abars` has several entries. Multiply the result by the cosine of this step as
+      well
+    last-level-0: your code ends with a step to abar = 0, which is pure noise. The last
+      step should lead to abar = 1, which is the data without noise
+    last-level-first: your code puts abar = 1 before the other levels. Put abar = 1
+      after the other levels instead, because the last step leads to abar = 1
     sines: your code multiplies the sines of the angles. Use the cosines instead,
       because each step multiplies the width by the cosine of its angle
     pure-noise-first: your code adds a step from abar = 0 to the first level. Omit this
@@ -55,14 +56,14 @@ def _(abars, sigma):
       by the cosine of its angle, so return the product of the cosines
     sum: your function returns the sum of the cosines. Each step multiplies the width by
       the cosine of its angle, so return the product of the cosines
-    width: your function returns the standard deviation after all steps. Divide it by
-      sigma to obtain the fraction that the steps keep
+    width: your function returns the standard deviation after all steps. Divide this
+      standard deviation by sigma to obtain the fraction that the steps keep
     start-1: your code starts from the standard deviation 1. Start from the standard
       deviation of the noisy data at the first level instead, which is the norm of the
       first vector
     lengths-kept: your code divides each scalar product by the square of the first
-      vector's norm. Divide it by the product of the norms of both vectors instead,
-      which gives the cosine
+      vector's norm. Divide each scalar product by the norms of both vectors instead,
+      which gives the cosine of the angle
     dots: your code multiplies the scalar products of successive vectors. Divide each
       scalar product by the norms of both vectors first, which gives the cosine of the
       angle

@@ -34,15 +34,15 @@ def _(rng):
 
 @row.wrongs
 def _(first, second):
-    """numbers-collide: your code does not shift the episode numbers of the second data
-      set. Add the largest number in the first set plus 1, so that no two episodes have
-      the same number
+    """numbers-collide: your code keeps the episode numbers of the second data set, so
+      two episodes can have the same number. Add the largest number in the first set
+      plus 1 to each of these numbers
     shift-by-last: your code shifts the episode numbers by the last number in the first
       data set plus 1. Use the largest number in this set instead, because the numbers
       can be in any order
     shared-number: your code shifts the episode numbers by the largest number in the
-      first data set. Add 1 to this shift; otherwise episode 0 of the second set gets an
-      existing number
+      first data set. Shift by this number plus 1, because the episodes of the second
+      set begin at 0
     largest-of-both: your code shifts the episode numbers by the largest number in both
       data sets plus 1. Use only the largest number in the first set, as the task
       specifies
@@ -55,10 +55,10 @@ def _(first, second):
       missing
     counted-rows: your code shifts the episode numbers by the number of rows in the
       first data set. Use the largest episode number in this set plus 1 instead
-    new-only: your result omits the rows of the first data set. Return the rows of the
-      first data set, followed by the rows of the second
-    second-first: your code puts the rows of the second data set first. Put the rows of
-      the second data set after the rows of the first
+    new-only: your function omits the rows of the first data set. Return these rows,
+      followed by the rows of the second data set
+    second-first: your code puts the rows of the second data set before the rows of the
+      first. Reverse this order
     renumbered: your code renumbers the episodes of both data sets from 0. Keep the
       episode numbers of the first data set, and shift only the numbers of the second
     without-gaps: your code renumbers the episodes of the second data set without gaps.

@@ -54,11 +54,11 @@ def _(p, n, k):
     times-k 2: your code multiplies the binomial distribution function F by k and limits
       the product to 1. Use F(s)^k, the probability that all k policies have at most s
       successes
-    density: your code uses k * F^(k - 1) * f, the density of the maximum of k
-      continuous variables with distribution function F and density f. The largest
-      number of successes is s with probability F(s)^k - F(s - 1)^k
-    possible-numbers: your code divides the expected number of successes by n + 1, the
-      number of possible results of a test. Divide it by n instead, the number of starts
+    density: your code uses k * F^(k - 1) * f, which is the density of the maximum of k
+      continuous variables. The largest number of successes is discrete: it is s with
+      probability F(s)^k - F(s - 1)^k
+    possible-numbers: your code divides the expected number of successes by n + 1.
+      Divide this number by n instead, because each policy has n starts
     median: your function returns the median of the largest of the k numbers of
       successes, divided by n. Return the expected value of this number, divided by n
     normal: your function uses the normal approximation p + sqrt(2 * ln(k) * p * (1 - p)

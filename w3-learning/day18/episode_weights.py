@@ -38,10 +38,11 @@ def _(episode):
       number of episodes
     sums-to-1: your weights sum to 1 over all rows. The mean of the weights should be 1,
       so multiply the weights by the number of rows
-    length: your weights are proportional to the number of rows of the episode. Use the
-      reciprocal of this number instead, so that each episode has the same total weight
+    length: your weights are proportional to the number of rows of the row's episode.
+      Use the reciprocal of this number instead, so that each episode has the same total
+      weight
     root: your weights are proportional to 1 / sqrt(length), where length is the number
-      of rows of the episode. Use 1 / length instead, so that all episodes have the same
+      of rows of the episode. Use 1 / length instead, so that each episode has the same
       total weight
     by-runs: your code starts a new episode wherever the episode number changes. Rows
       with the same number belong to one episode, even if rows of other episodes lie

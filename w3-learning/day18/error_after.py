@@ -37,22 +37,23 @@ def _(rng):
 
 @row.wrongs(hidden={"near-1": "the lab has no factor near 1, except 1 itself"})
 def _(a, step, T):
-    """always-linear: your code adds `step` in each step, but does not multiply the
-      previous error by a. Multiply the previous error by a first, and then add `step`
-    limit: your function returns `step` / (1 - a), the limit of the error for infinitely
-      many steps if |a| < 1. Multiply this value by 1 - a^T, because T is finite
-    limit 2: your function returns the limit of the error for infinitely many steps,
-      `step` / (1 - a), if a is below 1. Multiply this limit by 1 - a^T, because T is
-      finite
-    near-1: your code uses `step` * T also for values of a near 1. Use this product only
+    """always-linear: your code only adds `step` in each step. Multiply the previous
+      error by a before you add `step`
+    limit: your function returns `step / (1 - a)`, which is the limit of the error for
+      infinitely many steps if |a| < 1. Return the sum of the first T terms of the
+      geometric series instead
+    limit 2: your function returns `step / (1 - a)` if a is below 1, which is the limit
+      for infinitely many steps. Return the sum of the first T terms of the geometric
+      series instead
+    near-1: your code uses `step * T` also for values of a near 1. Use this product only
       for a = 1, and the geometric sum for all other values
     zero-at-1: your function returns 0 for a = 1. In this case each step adds `step` to
-      the error, so return `step` * T
-    one-error: your function returns `step` * a^T, so only a single error grows. Each of
-      the T steps adds a new error, so return the sum of all T contributions
-    one-error 2: your function returns `step` * a^(T - 1), so only the first error is
-      included. Each of the T steps adds a new error, so return the sum of all T
+      the error, so return `step * T`
+    one-error: your function returns step * a^T, as if one error were added before the
+      first step. Each of the T steps adds an error, so return the sum of all T
       contributions
+    one-error 2: your function returns step * a^(T - 1), which is the contribution of
+      the first step only. Add the contributions of all T steps
     summed-errors: your function sums the error over all steps. Return only the error
       after the last step
     continuous: your code uses exp((a - 1) * T), which approximates a^T only for a near

@@ -41,11 +41,11 @@ def _(rng):
 @row.wrongs(hidden={"one-direction-doubled": "the lab has no gap of 0"})
 def _(p, n, gap):
     """rates-as-floats: your code compares the difference of the success rates with gap
-      / n. Compare the difference of the numbers of successes with gap instead, because
-      rounding errors of the rates exclude some pairs
+      / n. Compare the difference of the numbers of successes with `gap` instead,
+      because rounding errors of the rates exclude some pairs
     one-direction: your code includes only the pairs of results in which the first test
-      has at least `gap` more successes than the second. The difference can have either
-      sign, so also include the pairs in which the second test has more
+      has at least `gap` more successes. Also include the pairs in which the second test
+      has more successes
     one-set: your code compares the result of one test with the expected number of
       successes, n * p. The results of both tests are random, so sum over all pairs of
       results
@@ -55,13 +55,12 @@ def _(p, n, gap):
       correction. Sum the exact binomial probabilities instead
     half-a-start 2: your function uses a normal approximation with a continuity
       correction, unless gap is 0. Sum the exact binomial probabilities instead
-    one-direction-doubled: your code doubles the sum over one direction. If gap is 0,
-      the doubled sum contains each pair of equal results twice. Include these pairs
-      only once
+    one-direction-doubled: your code doubles the sum over one direction, which counts
+      each pair of equal results twice if gap is 0. Count these pairs only once
     sum-of-both: your code uses the distribution of the sum of the two numbers of
       successes. Use the distribution of the difference of these numbers instead
     exactly: your code includes only the pairs of results whose difference is exactly
-      gap. Include the pairs with a larger difference as well
+      `gap`. Include the pairs with a larger difference as well
     """
     k = np.arange(n + 1)
     one = pmf(n, p)

@@ -37,9 +37,9 @@ def _(p):
     """uncorrected: your code compares each of the m p-values with 0.05. The probability
       of a false positive grows with m, so use the limits 0.05 / m, 0.05 / (m - 1), and
       so on
-    bonferroni: your code compares each p-value with 0.05 / m (Bonferroni). Use this
-      limit only for the smallest p-value, 0.05 / (m - 1) for the next p-value, and so
-      on
+    bonferroni: your code compares each p-value with Bonferroni's limit 0.05 / m. Use
+      this limit only for the smallest p-value, 0.05 / (m - 1) for the next p-value, and
+      so on
     no-stop: your code continues after a p-value that is larger than its limit. Stop at
       this p-value, because no larger p-value is significant either
     hochberg: your code starts with the largest p-value (Hochberg's method). Start with
@@ -48,26 +48,26 @@ def _(p):
       the result should refer to p-value i of the argument, so undo the sorting
     benjamini-hochberg: your code uses the method of Benjamini and Hochberg, whose
       limits are 0.05 / m, 0.10 / m, and so on. Use Holm's limits 0.05 / m, 0.05 / (m -
-      1), and so on
-    not-equal: your code requires each p-value to be smaller than its limit. Use <=
-      instead of <, because a p-value that is equal to its limit is significant
+      1), and so on, instead
+    not-equal: your code requires each p-value to be smaller than its limit. Use `<=`
+      instead of `<`, because a p-value that is equal to its limit is significant
     one-later: your code starts with the limit 0.05 / (m - 1). Compare the smallest
       p-value with 0.05 / m, the next p-value with 0.05 / (m - 1), and so on
     unsorted: your code compares the p-values in the order of the argument. Sort the
       p-values first, and start with the smallest
-    first-larger: your result includes the first p-value that is larger than its limit.
-      Stop before this p-value, because it is not significant
-    wrong-positions: your code reorders the sorted mask in the wrong direction. Write
-      the entry of the smallest p-value to the position of this p-value in the argument,
-      and so on
-    wrong-positions 2: your code reorders the sorted mask in the wrong direction. Write
-      the entry of the smallest p-value to the position of this p-value in the argument,
-      and so on
+    first-larger: your code also marks the first p-value that is larger than its limit
+      as significant. Stop before this p-value, because it is not significant
+    wrong-positions: your code undoes the sorting in the wrong direction. Write entry i
+      of the sorted mask to position `order[i]` of the result, where `order` is
+      `np.argsort(p)`
+    wrong-positions 2: your code undoes the sorting in the wrong direction. Write entry
+      i of the sorted mask to position `order[i]` of the result, where `order` is
+      `np.argsort(p)`
     limits-reversed: your code uses the limits in reverse order, so it compares the
       smallest p-value with 0.05. Compare the smallest p-value with 0.05 / m, and the
       largest with 0.05
     sidak: your code uses Sidak's limits, which begin with 1 - 0.95^(1 / m) and require
-      independent tests. Use Holm's limits 0.05 / m, 0.05 / (m - 1), and so on
+      independent tests. Use Holm's limits 0.05 / m, 0.05 / (m - 1), and so on, instead
     indices: your function returns the indices of the significant differences. Return a
       Boolean mask with one entry for each p-value instead
     negated: your mask is True for the differences that are not significant. Return True

@@ -100,27 +100,27 @@ def _(win, lose, n, level):
       directions
     one-sided: your code uses a one-sided p-value. Use the two-sided p-value of
       `sign_test` instead
-    independent: your code treats the numbers of wins and losses as independent. A start
-      cannot be both a win and a loss, so sum over the number of differing starts and
-      over the wins among these starts
-    win-as-share: your code uses win as the probability of a win on a differing start.
-      Given that the start differs, the probability of a win is win / (win + lose), so
-      use this fraction
+    independent: your code treats the numbers of wins and losses as independent, but a
+      start cannot be both. Sum over the number of differing starts, and then over the
+      wins among these starts
+    win-as-share: your code uses `win` as the probability of a win on a differing start.
+      Use win / (win + lose) instead, which is the probability of a win given that the
+      policies differ
     fair-share: your code uses 1/2 as the probability of a win on a differing start, as
       if both policies were equally good. Use win / (win + lose) instead
     normal: your code uses a normal approximation of the p-value. Use the exact p-value
       of `sign_test` instead
     normal-power: your function uses a normal approximation of the power. Sum the
       probabilities of all numbers of wins and losses for which the p-value is at most
-      level
+      `level`
     level-fixed: your code compares the p-value with 0.05. Compare the p-value with the
       argument `level` instead
     equal-numbers: your code assigns the same probability to every possible number of
       differing starts. This number has a binomial distribution with n trials and the
       probability win + lose
-    chosen-from-all: your binomial coefficient for the losses counts choices from all n
-      starts. Use n minus the number of wins instead, because a start cannot be both a
-      win and a loss
+    chosen-from-all: your binomial coefficient chooses the losses from all n starts.
+      Choose the losses from the starts that are not wins, because a start cannot be
+      both a win and a loss
     """
     differ = win + lose
     share = win / differ if differ else 0.0

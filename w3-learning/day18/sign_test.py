@@ -82,13 +82,13 @@ def _(first, second):
       probability instead, because there are two tails
     zero-if-none: your p-value is 0 if the policies differ on no start. In this case
       there is no evidence of a difference, so return 1
-    every-win: your code counts each start from which the policies differ as a win for
-      the first policy. If only the second policy succeeds, count the start as a loss
-    one-sided: your test is one-sided. An equally uneven split in favour of the other
-      policy is as extreme, so add the probabilities of both tails
+    every-win: your code counts each start on which the policies differ as a win for the
+      first policy. Count the start as a loss if only the second policy succeeds
+    one-sided: your p-value contains only one tail. Include the other tail as well,
+      because a split that is equally uneven in favour of the other policy is as extreme
     first-better: your function returns the probability that the first policy has at
       least the observed number of wins. The test is two-sided, so return twice the
-      smaller tail, and at most 1
+      smaller tail, but at most 1
     not-capped: your p-value is above 1 for an even split, because both tails include
       the even split. Limit the p-value to 1
     all-starts: your code uses n trials in the binomial distribution, one for each
@@ -98,8 +98,8 @@ def _(first, second):
     agreement 2: your code treats half of the starts on which both policies succeed or
       both fail as wins, and half as losses. Omit these starts, because such a start
       favours neither policy
-    both-win: your code counts each tie twice, once as a win and once as a loss. Omit
-      the starts on which both policies succeed or both fail, because they favour
+    both-win: your code counts each start on which both policies succeed or both fail
+      once as a win and once as a loss. Omit these starts, because such a start favours
       neither policy
     one-split: your p-value is twice the probability of the observed split alone.
       Include the probabilities of all splits that are more uneven as well
@@ -113,8 +113,9 @@ def _(first, second):
       for few starts
     continuity: your function uses the chi-squared approximation of McNemar's test with
       a continuity correction. Sum the exact binomial probabilities instead
-    paired-z: your function divides the mean difference by its standard error and uses
-      the normal distribution (a z-test). Sum the exact binomial probabilities instead
+    paired-z: your function uses a z-test for the mean difference. Sum the exact
+      binomial probabilities instead, because the normal approximation is inaccurate for
+      few starts
     unpaired: your function compares the two success rates as if the policies had
       different starts. Both policies have the same starts, so use the starts on which
       exactly one policy succeeds

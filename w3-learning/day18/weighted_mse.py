@@ -34,8 +34,8 @@ row.cases(
 @row.wrongs
 def _(pred, target, weight):
     """mean: your code divides the weighted sum of the squared errors by the number of
-      rows. Divide it by the sum of the weights instead, so that doubling all weights
-      does not change the loss
+      rows. Divide this sum by the sum of the weights instead, so that doubling all
+      weights does not change the loss
     summed: your code does not divide by the sum of the weights. The loss is a weighted
       mean, so divide both the loss and the gradient by this sum
     summed-over-columns: your code sums the squared errors over the columns. Take the
@@ -57,11 +57,11 @@ def _(pred, target, weight):
     row-means: your code squares the mean error of each row. Take the mean of the
       squared errors instead, because errors of opposite sign cancel in the mean error
     largest-weight: your code divides the weighted sum of the squared errors by the
-      product of the largest weight and the number of rows. Divide it by the sum of the
-      weights instead
+      largest weight times the number of rows. Divide this sum by the sum of the weights
+      instead
     weighted-rows: your code divides the weighted sum of the squared errors by the
-      number of rows whose weight is not 0. Divide it by the sum of the weights instead,
-      so that doubling all weights does not change the loss
+      number of rows whose weight is not 0. Divide this sum by the sum of the weights
+      instead
     """
     e = pred - target
     n, m = e.shape

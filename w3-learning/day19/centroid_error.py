@@ -14,8 +14,8 @@ def of_all_frequencies(case: Case) -> Finding | None:
             return None
     return Finding(
         "all-frequencies",
-        "Your function returns the largest error with all frequencies. Only the lowest "
-        "frequency should be considered, so use the first term of Poisson's sum.",
+        "Your function returns the largest error with all frequencies. The task "
+        "considers only the lowest frequency, so use the first term of Poisson's sum.",
     )
 
 
@@ -56,16 +56,16 @@ def _(spacing, sigma):
       sum as the error. The error is sigma^2 times the derivative of this term with
       respect to the position
     twice-the-first-frequency: your code uses the exponent of the second term of
-      Poisson's summation formula. Use the exponent of the first term, which has a
-      period of one pixel
+      Poisson's sum. Use the exponent of the first term instead, which has a period of
+      one pixel
     without-2-pi: your code omits a factor of 2 * pi. The derivative of cos(2 * pi * u)
       with respect to u contains this factor
     inverted: your code divides the spacing by sigma. Divide sigma by the spacing
       instead, which gives the blur in pixels
     divided-by-the-sum: your code divides by Poisson's sum, including its second term.
-      Only the lowest frequency should be considered, so omit this division
-    unit-squared: your result has the unit of sigma^2, but it should be a length. Use
-      (sigma / spacing)^2 instead of sigma^2, and multiply the result by the spacing
+      Omit this division, because the task considers only the lowest frequency
+    unit-squared: your code uses sigma^2 as a factor, so the result is not a length. Use
+      (sigma / spacing)^2 instead, and multiply the result by the spacing
     """
     r = sigma / spacing
     decay = np.exp(-2 * np.pi**2 * r**2)

@@ -54,8 +54,8 @@ def apart(image, kernel, m, n):
 
 @row.wrongs
 def _(image, kernel, stride):
-    """flipped: your code flips the kernel along both axes, as in the mathematical
-      convolution. Use the kernel without a flip, because `conv2d` computes the
+    """flipped: your code flips the kernel along both axes, as a mathematical
+      convolution does. Use the kernel without a flip, because `conv2d` computes the
       cross-correlation
     mean: your code divides each output by the number of entries of the kernel. Return
       the sum of the products without this division
@@ -88,11 +88,11 @@ def _(image, kernel, stride):
     across-the-edge: your code includes windows that begin inside the image and extend
       beyond its last row or column. Return one output for each window that lies inside
       the image
-    one-less: your output omits the last row and the last column of windows. Add 1 to
-      the number of strides that fit, because the first window needs no stride
-    counted-before-the-division: your code adds 1 before it divides by the stride and
-      rounds down, so windows are missing if pixels are left over. Add 1 after the
-      division instead, because the first window always fits
+    one-less: your code omits the last row and the last column of windows. Add 1 to the
+      number of strides that fit, because the first window needs no stride
+    counted-before-the-division: your code adds 1 before it divides by the stride, so
+      some windows can be missing. Add 1 after the division instead, because the first
+      window needs no stride
     without-the-last: your code omits windows that end at the last row or column of the
       image. These windows lie inside the image, so include them
     """
@@ -117,18 +117,18 @@ def _(image, kernel, stride):
 
 @row.wrongs
 def _(image, kernel, stride):
-    """stride-ignored: your code ignores the stride. Use only every stride-th window
-      along each axis
-    at-i-j: in your code, the window of output [i, j] begins at pixel [i, j]. This
-      window should begin at pixel [i * stride, j * stride]
+    """stride-ignored: your code ignores the stride. Use only the windows whose first
+      row and column are multiples of the stride
+    at-i-j: your code begins the window of output [i, j] at pixel [i, j]. The window
+      should begin at pixel [i * stride, j * stride]
     stride-along-y-only: your code applies the stride to the rows of the image, but not
       to its columns. Move the window by the stride along both axes
     stride-along-x-only: your code applies the stride to the columns of the image, but
       not to its rows. Move the window by the stride along both axes
     apart: your code moves the window by the size of the kernel. Move the window by the
       stride instead, so that windows can overlap
-    sampled-first: your code discards the pixels between the strides before it applies
-      the kernel. Apply the kernel to adjacent pixels, and use the stride only as the
+    sampled-first: your code omits the pixels between the strides before it applies the
+      kernel. Apply the kernel to adjacent pixels, and use the stride only as the
       distance between windows
     """
     m, n = correlated(image, kernel, stride).shape

@@ -66,19 +66,18 @@ def _(image, kernel, stride, d):
     """kernel-flipped: your code flips the gradient with respect to the kernel along
       both axes. Entry [a, b] of this gradient should be the sum of d times pixel [a, b]
       of each window
-    image-by-flipped: your gradient with respect to the image would be correct if the
-      kernel were flipped along both axes. Either add d[i, j] times the kernel to the
-      window of output [i, j], or correlate the padded d with the flipped kernel
+    image-by-flipped: your gradient with respect to the image would be correct for the
+      kernel flipped along both axes. Flip the kernel only if your code correlates it
+      with the padded d
     overwritten: your code overwrites the gradient with respect to the image where
       windows overlap. Add the contributions of all windows that contain a pixel instead
     averaged: your code averages the contributions to a pixel that lies in several
       windows. Add these contributions instead, because the output of each of these
       windows depends on the pixel
-    divided: your code divides both gradients by the number of outputs. The argument d
-      is already the gradient of the loss with respect to the output, so omit this
-      division
-    order: your function returns the gradient with respect to the image first. Return
-      the gradient with respect to the kernel first
+    divided: your code divides both gradients by the number of outputs. Omit this
+      division, because d is already the gradient of the loss with respect to the output
+    order: your function returns the two gradients in the wrong order. Return the
+      gradient with respect to the kernel first
     last-window: your gradient with respect to the kernel contains only the contribution
       of the last window. Add the contributions of all windows
     """

@@ -30,13 +30,12 @@ def _(sigma, half):
       sum of the entries instead
     rows-normalised: your code normalises each row of the kernel separately. All entries
       of the kernel together should sum to 1, so divide by the sum of the whole kernel
-    added: your code adds the Gaussians along x and along y. Multiply them instead,
-      because the Gaussian in the plane is their product
+    added: your code adds the Gaussians along x and along y. Multiply these Gaussians
+      instead, because the Gaussian in the plane is their product
     square-of-the-sum: your code uses (x + y)^2 as the squared distance from the middle.
       Use x^2 + y^2 instead
-    one-short: your kernel has 2 * half rows and columns, because its coordinates end at
-      half - 1. Use the coordinates from -half to half, which give 2 * half + 1 rows and
-      columns
+    one-short: your code uses coordinates from -half to half - 1. Use coordinates from
+      -half to half instead, so that the kernel has 2 * half + 1 rows and columns
     from-minus-1-to-1: your code uses coordinates from -1 to 1. Use coordinates from
       -half to half instead, because `sigma` is in pixels
     """

@@ -40,8 +40,9 @@ def _(centres, radii, xs, ys):
     flat: your code returns the radius r as the height at every pixel that the sphere
       covers. At the horizontal distance d from the centre, the height is sqrt(r^2 -
       d^2)
-    cone: your heights are r - d, which describes a cone. The surface is a sphere, so r
-      is the hypotenuse of a right triangle whose legs are d and the height
+    cone: your code uses r - d as the height, where d is the horizontal distance from
+      the centre. In a sphere, r is the hypotenuse of a right triangle with d and the
+      height as legs
     last-wins: your code replaces the height of an earlier sphere even where the later
       sphere is lower. A ray from above stops at the highest sphere, so use the largest
       height
@@ -55,8 +56,8 @@ def _(centres, radii, xs, ys):
       heights of all spheres
     sum-of-distances: your code uses |dx| + |dy| as the horizontal distance. Use
       sqrt(dx^2 + dy^2) instead, where dx and dy are the distances along x and y
-    transposed: your image has one row for each entry of xs. It should have one row for
-      each entry of ys, because pixel [i, j] is at (xs[j], ys[i])
+    transposed: your image has one row for each entry of xs. Return one row for each
+      entry of ys instead, because pixel [i, j] is at (xs[j], ys[i])
     """
     dx = xs - centres[:, 0, None, None]
     dy = ys[:, None] - centres[:, 1, None, None]

@@ -35,15 +35,15 @@ def _(images, action, k):
     action-the-other-way: your code rotates the action from y towards x. Rotate the
       action from x towards y instead, in the same direction as the scene
     image-the-other-way: your code rotates the images from y towards x. The row index
-      increases with y, so np.rot90 needs -k to rotate the images from x towards y
+      increases with y, so `np.rot90` needs -k to rotate the images from x towards y
     mirrored: your code mirrors the images instead of rotating them. A mirrored image
       differs from a rotated image by a flip along one axis, so add this flip
     mirrored 2: your code transposes the images, which mirrors them about a diagonal. A
       quarter turn is a transpose and a flip along one axis, so add this flip
     action-turned-once: your code rotates the action by one quarter turn for every k.
       Rotate the action by k quarter turns, like the images
-    x-overwritten: your code computes the new y of the action from the new x. Use the
-      old x instead, and store it before you overwrite it
+    x-overwritten: your code computes the new y of the action from the new x. Store the
+      old x first, and compute the new y from the old x
     sign-of-k-lost: your code rotates in the same direction for k and -k. For a negative
       k, rotate from y towards x
     degrees: your code passes 90 * k to cos and sin, which take radians. Use k * pi / 2

@@ -21,23 +21,23 @@ row = Row(
             "overflows",
             "Your function is correct for small entries. For large entries, exp "
             "overflows or all weights of a map are 0, so your result is NaN. Subtract "
-            "each map's own largest entry before you divide by the temperature, which "
-            "does not change the weights.",
+            "each map's own largest entry before you divide by the temperature. This "
+            "subtraction does not change the weights.",
             large_maps,
         ),
         HeldOut(
             "not-for-minus-infinity",
             "Your function is correct for finite entries, but not for entries of "
-            "-inf. Such an entry should have the weight 0. Do not replace it, because "
-            "exp(-inf) is 0.",
+            "-inf. Such an entry should have the weight 0. Do not replace -inf, "
+            "because exp(-inf) is 0.",
             dark_maps,
         ),
         HeldOut(
             "imaginary-lost",
             "Your function is correct for real maps, but it loses the imaginary part "
             "of complex maps. The lab tests your gradient with the complex step. Do "
-            "not use float(), .real or np.maximum, and do not write results into an "
-            "array of real numbers.",
+            "not use `float()`, `.real` or `np.maximum`, and do not write results "
+            "into an array of real numbers.",
             complex_maps,
         ),
     ],
@@ -63,7 +63,7 @@ row.cases(
 @row.wrongs
 def _(maps, xs, ys, temperature):
     """rows-only: your weights sum to 1 in each row of a map. All weights of a map
-      together should sum to 1, so divide by the sum over the rows and columns
+      together should sum to 1, so divide by the sum over rows and columns instead
     maps-together: your weights sum to 1 over all maps together. Each map is a separate
       channel, so the weights of each map should sum to 1
     argmax: your function returns the position of the largest entry. Return the expected
@@ -72,7 +72,7 @@ def _(maps, xs, ys, temperature):
     x-y-swapped: your result is (y, x). Return x first, where pixel [i, j] is at x =
       xs[j] and y = ys[i]
     over-the-maps: your weights sum to 1 over the maps at each pixel. The weights of
-      each map should sum to 1, so divide by the sum over the rows and columns
+      each map should sum to 1, so divide by the sum over rows and columns instead
     indices: your code averages the indices of rows and columns. Average the
       coordinates xs and ys instead
     softmax-of-sums: your code sums each map along one axis before it calls exp. Apply

@@ -58,17 +58,17 @@ def _(maps, xs, ys, temperature, d):
       The maps are divided by the temperature before the softmax, so the chain rule
       gives the factor 1 / temperature
     p-1-minus-p: your code uses only the factor p * (1 - p), the derivative of a weight
-      p with respect to its own softmax input. The other weights change too, so include
-      their derivatives
+      p with respect to its own softmax input. Each input also changes all other
+      weights, so include their derivatives
     plain-mean: your code subtracts the mean of d_x * x + d_y * y with equal weights,
       where (d_x, d_y) is the map's row of d. Subtract the expected value instead, which
       is the mean with the softmax weights
-    only-x-centred: your code subtracts the expected value of d_x * x, but not of d_y *
-      y, where (d_x, d_y) is the map's row of d. Subtract the expected value of their
-      sum
-    only-y-centred: your code subtracts the expected value of d_y * y, but not of d_x *
-      x, where (d_x, d_y) is the map's row of d. Subtract the expected value of their
-      sum
+    only-x-centred: your code subtracts the expected value of d_x * x only, where (d_x,
+      d_y) is the map's row of d. Subtract the expected value of d_x * x + d_y * y
+      instead
+    only-y-centred: your code subtracts the expected value of d_y * y only, where (d_x,
+      d_y) is the map's row of d. Subtract the expected value of d_x * x + d_y * y
+      instead
     mean-without-d: your code subtracts the expected value of x + y. Subtract the
       expected value of d_x * x + d_y * y instead, where (d_x, d_y) is the map's row of
       d

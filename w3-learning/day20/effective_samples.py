@@ -32,8 +32,8 @@ row = Row(
             "overflows",
             "Your function is correct for moderate weights and probabilities. If exp "
             "overflows, becomes 0 or is limited, the result is NaN or wrong. Subtract "
-            "the largest logp - old_logp before you call exp, which does not change "
-            "the result.",
+            "the largest logp - old_logp before you call exp. This subtraction does "
+            "not change the result.",
             far,
         ),
     ],
@@ -76,8 +76,8 @@ def _(logp, old_logp):
       weights. Divide the square of the sum by the sum of the squares instead
     squares-over-sum 2: your code divides the sum of the squares by the sum of the
       weights. Divide the square of the sum by the sum of the squares instead
-    by-the-entropy: your code returns exp of the entropy of the weights, which is
-      another measure. Return (sum w)^2 / sum w^2 instead
+    by-the-entropy: your function returns exp of the entropy of the weights. Return (sum
+      w)^2 / sum w^2 instead
     share: your code divides the effective number of samples by the number of samples.
       Return the effective number itself instead of a fraction
     new-only: your weights are exp(logp). The samples were drawn by the old policy, so

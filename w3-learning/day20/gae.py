@@ -84,41 +84,43 @@ def backwards(delta, factor):
 
 @row.wrongs
 def _(reward, value, next_value, terminated, ended, gamma, lam):
-    """cut-off-is-terminated: your code replaces next_value by 0 wherever an episode
-      ended. Keep next_value where an episode was cut off, because this episode would
-      have continued
+    """cut-off-is-terminated: your code replaces `next_value` by 0 at the end of each
+      episode. Keep `next_value` where an episode was cut off, because this episode
+      would have continued
     runs-through-ends: your code continues the sum into the row after an end, which
-      belongs to another episode. Omit the advantage of the next row where ended is True
-    runs-through-cut-offs: your code stops the sum at true ends only. The row after a
-      cut-off belongs to another episode as well, so stop the sum wherever ended is True
-    end-one-late: your code applies the flag ended to the wrong row. Omit the advantage
-      of row t + 1 from the sum where ended is True in row t
-    never-terminated: your code also uses next_value where terminated is True. Replace
-      next_value by 0 there, because the state after the step is worth 0
-    next-rows-value: your code uses the value of the next row instead of next_value. Use
-      next_value, because the row after an end belongs to another episode
-    lambda-forgotten: your code omits lam, so its result is the advantage for lam = 1.
+      belongs to another episode. Omit the advantage of the next row where `ended` is
+      True
+    runs-through-cut-offs: your code stops the sum at true ends only. Stop the sum
+      wherever `ended` is True, because the row after a cut-off also belongs to another
+      episode
+    end-one-late: your code uses the flag `ended` of the next row. Omit the advantage of
+      row t + 1 where `ended` is True in row t
+    never-terminated: your code uses `next_value` even where `terminated` is True. Use 0
+      instead, because the state after such a step is worth 0
+    next-rows-value: your code uses the value of the next row instead of `next_value`.
+      Use `next_value`, because the row after an end belongs to another episode
+    lambda-forgotten: your code omits lam, so the result is the advantage for lam = 1.
       Multiply the advantage of the next row by gamma * lam
     gamma-not-in-the-sum: your code multiplies the advantage of the next row by lam
       only. Multiply this advantage by gamma * lam instead
-    stopped-for-all: when an episode ends in one column, your code stops the sums of all
-      columns. Apply the flag of each column only to that column
+    stopped-for-all: your code stops the sums of all columns when an episode ends in one
+      column. Apply the flag of each column only to this column
     error-left-out: your code sets the temporal-difference error to 0 in the last step
       of an episode. Keep this error, because the last step also has a reward and a
       value
     reward-at-the-end: your code uses the reward as the temporal-difference error of a
       step that terminates. Subtract the value of the state before this step as well
     weights-below-1: your code weights the n-step returns with (1 - lam) * lam^k up to
-      the end of the episode. These weights do not sum to 1, so give the last of these
-      returns the remaining weight
+      the end of the episode. These weights do not sum to 1, so give the remaining
+      weight to the last n-step return
     reversed: your code returns the rows from the last step to the first. The first row
       of the result should belong to the first step
-    normalised: your code normalises the advantages. Return them as they are, because
-      the sum of an advantage and its value is the target of the value function
+    normalised: your code normalises the advantages. Omit this normalisation, because an
+      advantage plus its value is the target of the value function
     value-one-early: your code subtracts the value of the previous row. Subtract the
       value of the state before this step instead, which is in the same row
-    one-step-only: your code omits the errors of the later steps. Add gamma * lam times
-      the advantage of the next row
+    one-step-only: your code omits the temporal-difference errors of the later steps.
+      Add gamma * lam times the advantage of the next row
     targets-returned: your function returns the advantage plus the value, which is the
       target of the value function. Return the advantage alone
     """

@@ -21,9 +21,9 @@ row = Row(
         HeldOut(
             "underflow",
             "Your function is correct for an action near its mean, but not for an "
-            "action far from it. The density of a far action is so small that exp "
-            "returns 0, whose logarithm is minus infinity. Take the logarithm of the "
-            "formula on paper first, so that your code does not need this exp.",
+            "action far from the mean. The density of such an action is so small that "
+            "exp returns 0, whose logarithm is minus infinity. Take the logarithm of "
+            "the formula on paper first, so that your code does not need this exp.",
             far,
         ),
     ],
@@ -47,10 +47,9 @@ row.cases(
 
 @row.wrongs
 def _(action, mean, log_std):
-    """determinant-forgotten: your code omits the term -log_std of each entry. This term
-      is needed because the integral of the density must be 1, so a wide Gaussian has a
-      lower density
-    log-std-as-std: your code uses log_std as the standard deviation. Use exp(log_std)
+    """determinant-forgotten: your code omits the term -log_std of each entry. A wider
+      Gaussian has a lower density, because the integral of the density is 1
+    log-std-as-std: your code uses `log_std` as the standard deviation. Use exp(log_std)
       instead
     half-forgotten: your code omits the factor 1/2 in the exponent. The exponent of a
       Gaussian is -z^2 / 2, where z = (action - mean) / std

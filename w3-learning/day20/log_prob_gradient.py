@@ -28,21 +28,22 @@ def _(action, mean, log_std):
     """not-divided-again: your gradient with respect to the mean is z = (action - mean)
       / std. Divide z by std, because the derivative of z with respect to the mean is -1
       / std
-    by-the-action: your gradient with respect to the mean has the wrong sign: your
-      result is the derivative with respect to the action. If the action is above the
-      mean, raising the mean makes this action more likely
-    by-std: your second gradient is the gradient with respect to std. Multiply this
-      gradient by std to obtain the gradient with respect to log_std
-    determinant-forgotten: your gradient with respect to log_std is z^2. Subtract 1,
+    by-the-action: your gradient with respect to the mean has the wrong sign. If the
+      action is above the mean, raising the mean makes this action more likely, so the
+      derivative is positive
+    by-std: your second gradient is the gradient with respect to the standard deviation.
+      Multiply this gradient by the standard deviation to obtain the gradient with
+      respect to `log_std`
+    determinant-forgotten: your gradient with respect to `log_std` is z^2. Subtract 1,
       because the log-probability contains the term -log_std, whose derivative is -1
-    of-the-density: your code returns the gradient of the density. Divide by the density
-      to obtain the gradient of the logarithm
+    of-the-density: your function returns the gradient of the density. Divide this
+      gradient by the density to obtain the gradient of the logarithm
     of-the-density 2: your code multiplies both gradients by the density of the action.
-      Omit this factor, because the logarithm's gradient is the density's gradient
-      divided by the density
+      Omit this factor, because the result is the gradient of the log-probability and
+      not of the density
     averaged: your code divides both gradients by the number of actions. Omit this
       division, because each row is the gradient of its own action
-    half: your gradient with respect to log_std contains z^2 / 2. Use z^2 instead,
+    half: your gradient with respect to `log_std` contains z^2 / 2. Use z^2 instead,
       because the derivative of -z^2 / 2 with respect to log_std is z^2
     """
     std = np.exp(log_std)

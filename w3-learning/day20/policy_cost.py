@@ -38,16 +38,16 @@ def _(K, std, A, B, Q, R, S, T):
       by Q + K^T R K instead of Q
     one-step-more: your code adds the cost of the state after the last step as well. Add
       only the costs of the T states before the steps
-    without-the-start: your sum begins with the state after the first step. Begin with
-      the state at the start, whose matrix E[x x^T] is S
+    without-the-start: your code begins the sum with the state after the first step.
+      Begin with the state at the start, whose matrix E[x x^T] is S
     sign-of-K: your code uses A + B K as the closed-loop matrix. Use A - B K instead,
       because the mean input is u = -K x
     noise-once: your code adds the cost of the noise in the input only once. Add std^2
       tr(R) in each of the T steps
     transposed: your code updates X = E[x x^T] to M^T X M, where M = A - B K. The mean
       of the next state is M x, so use M X M^T instead
-    noise-shared: in E[x x^T], your code uses the same noise for all inputs. The entries
-      of z are independent, so add std^2 B B^T to E[x x^T]
+    noise-shared: your code uses the same noise for all inputs in E[x x^T]. Add std^2 B
+      B^T to E[x x^T] instead, because the entries of z are independent
     last-state-added: your code adds the cost x^T Q x of the state after the last step.
       Add only the costs of the T states before the steps
     traces-multiplied: your code multiplies the trace of Q + K^T R K by the trace of E[x

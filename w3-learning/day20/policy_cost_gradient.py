@@ -51,33 +51,33 @@ def _(K, std, A, B, Q, R, S, T):
       cost of each step is quadratic in the input
     moments-forgotten: your code omits E[x x^T]. The gain multiplies the state, so
       multiply the contribution of each step by E[x x^T] of this step
-    future-forgotten: your gradient contains only the cost of the input, R K. The input
-      of a step also changes the next state, so include the derivative of the cost-to-go
-      after the step
+    future-forgotten: your gradient contains only the term R K of the input cost.
+      Include the derivative of the cost-to-go after the step, because the input also
+      changes the next state
     noise-forgotten: your code omits the noise in E[x x^T]. Add std^2 B B^T to E[x x^T]
       in each step, as in `policy_cost`
-    start-only: your code uses S as E[x x^T] in every step. S is this matrix only at the
-      start, so compute E[x x^T] before each step
-    noise-shared: in E[x x^T], your code uses the same noise for all inputs. The entries
-      of z are independent, so add std^2 B B^T to E[x x^T]
-    X-one-late: your code uses E[x x^T] after each step. Use the matrix before the step
-      instead, because the input of a step is -K x with the state before it
+    start-only: your code uses S as E[x x^T] in every step. Compute E[x x^T] for each
+      step instead, because this matrix is S only at the start
+    noise-shared: your code uses the same noise for all inputs in E[x x^T]. Add std^2 B
+      B^T to E[x x^T] instead, because the entries of z are independent
+    X-one-late: your code uses E[x x^T] after each step. Use E[x x^T] before the step
+      instead, because the input -K x contains the state x before the step
     orders-mixed: your code pairs the first E[x x^T] with the last cost-to-go matrix P.
       E[x x^T] is computed forwards and P backwards, so store one of the two sequences
-    sign-of-B: your code adds B^T P M to R K. Subtract it, because M = A - B K contains
-      -B K
+    sign-of-B: your code adds B^T P M to R K. Subtract B^T P M instead, because M = A -
+      B K contains -B K
     first-step-only: your code returns only the contribution of the first step. The gain
       acts in each of the T steps, so add the contributions of all steps
     P-transposed: your code updates P with M P M^T, where M = A - B K. The cost of the
       next state M x is x^T M^T P M x, so use M^T P M instead
-    cost-after-the-last-step: your cost-to-go matrix P is Q after the last step. Begin
-      with P = 0, because no cost follows the last step
+    cost-after-the-last-step: your code uses Q as the cost-to-go matrix P after the last
+      step. Begin with P = 0, because no cost follows the last step
     optimal-P: your code computes P with the optimal gain of Riccati's recursion. Use P
       = Q + K^T R K + M^T P M instead, which belongs to the given gain K
     return-sign: your gradient has the wrong sign. Return the gradient of the cost,
       which is minus the gradient of the return
-    effort-forgotten: your cost-to-go matrix P omits K^T R K, the cost of the mean
-      input. Add K^T R K to Q when you compute P
+    effort-forgotten: your code omits K^T R K, the cost of the mean input, from the
+      cost-to-go matrix P. Add K^T R K to Q when you compute P
     """
     M = A - B @ K
     P = costs_to_go(K, A, B, Q, R, T)

@@ -39,22 +39,22 @@ def _(score, advantage):
       should increase the return, so negate the estimate
     divided-by-steps: your code divides the sum by the number of steps. Divide the sum
       by the number of episodes instead
-    means-multiplied: your code averages scores and advantages over the episodes before
-      it multiplies them. Multiply each score by its own advantage first, and then take
-      the mean
-    summed-to-go: your code adds the later advantages to the advantage of each step.
-      Use the advantages without this sum, because they already contain the later
+    means-multiplied: your code averages the scores and the advantages over the episodes
+      before the multiplication. Multiply each score by its own advantage first, and
+      then take the mean
+    summed-to-go: your code adds the later advantages to the advantage of each step. Use
+      the advantages without this sum, because an advantage already contains the later
       rewards
     pairs-mixed: your code pairs the scores with the advantages of other steps or
       episodes. Both arrays have the steps on the first axis and the episodes on the
       second axis
-    normalised-inside: your code normalises the advantages. Use the advantages as they
-      are, because the caller chooses the baseline and the scale
+    normalised-inside: your code normalises the advantages. Omit this normalisation,
+      because the caller chooses the baseline and the scale
     baseline-inside 2: your code subtracts the mean over the episodes from the
-      advantages of each step. Use the advantages without this subtraction, because the
-      caller chooses the baseline
-    baseline-inside: your code subtracts the mean of the advantages. Use the advantages
-      without this subtraction, because the caller chooses the baseline
+      advantages of each step. Omit this subtraction, because the caller chooses the
+      baseline
+    baseline-inside: your code subtracts the mean of the advantages. Omit this
+      subtraction, because the caller chooses the baseline
     """
     T, n, d = score.shape
     right = np.einsum("tnd,tn->d", score, advantage) / n

@@ -36,10 +36,10 @@ row = Row(
     held_out=[
         HeldOut(
             "limited-too-early",
-            "Your function is correct for moderate ratios. A large ratio with a "
-            "negative advantage is not clipped, so its term grows with the ratio. Your "
-            "result does not grow in this way. If you limit logp - old_logp, do so "
-            "only where exp would overflow, for example at 600.",
+            "Your function is correct for moderate ratios, but your loss is too small "
+            "for a large ratio with a negative advantage. The term of such a ratio is "
+            "not clipped. Limit logp - old_logp only where exp would overflow, for "
+            "example at 600.",
             large,
             relative=True,
         ),
@@ -47,7 +47,7 @@ row = Row(
             "overflows",
             "Your function is correct for moderate ratios. For a very large ratio, exp "
             "overflows to infinity, and infinity times an advantage of 0 is NaN. Limit "
-            "logp - old_logp before exp, for example to 600.",
+            "logp - old_logp, for example to 600, before you call exp.",
             far,
         ),
     ],
@@ -102,7 +102,7 @@ def _(logp, old_logp, advantage, clip):
     """no-clip: your code does not clip the ratio. Use the minimum of the clipped and
       the unclipped term, so that the new policy stays close to the policy that drew the
       actions
-    always-clipped: your loss uses only the clipped ratio. Use the minimum of the
+    always-clipped: your loss contains only the clipped term. Use the minimum of the
       clipped and the unclipped term, so that a ratio that has moved in the wrong
       direction is still corrected
     gradient-through-the-clip: your loss is correct, but your gradient ignores the
@@ -117,22 +117,22 @@ def _(logp, old_logp, advantage, clip):
     ratio-forgotten-in-the-gradient: your gradient is -advantage / n. Multiply this
       gradient by the ratio, because the derivative of the ratio with respect to logp is
       the ratio itself
-    ratio-of-logs: your code uses logp - old_logp, or this difference plus 1, as the
-      ratio. Use the ratio of the probabilities, exp(logp - old_logp), instead
+    ratio-of-logs: your code uses 1 + logp - old_logp as the ratio, which is accurate
+      only near 1. Use the ratio of the probabilities, exp(logp - old_logp), instead
     ratio-inverted: your ratio is exp(old_logp - logp). Use exp(logp - old_logp)
       instead, which is the new probability density divided by the old probability
       density
-    clip-above-only: your code clips the ratio only at 1 + clip. Clip it at 1 - clip as
-      well, because an update with a negative advantage lowers the ratio
+    clip-above-only: your code clips the ratio only at 1 + clip. Clip the ratio at 1 -
+      clip as well, because an update with a negative advantage lowers the ratio
     minimum-of-ratios: your code takes the minimum of both ratios before it multiplies
       by the advantage. Multiply both ratios by the advantage first, because a negative
       advantage reverses their order
-    minimum-of-ratios 2: in the loss, your code takes the minimum of both ratios before
-      it multiplies by the advantage. Multiply both ratios by the advantage first,
-      because a negative advantage reverses their order
-    minimum-for-a-negative-advantage: where the advantage is negative, your code uses
-      the minimum of the ratio and 1 - clip. Use the maximum instead, because the
-      product with a negative advantage is smaller for the larger ratio
+    minimum-of-ratios 2: your loss contains the minimum of both ratios, multiplied by
+      the advantage. Multiply both ratios by the advantage first, because a negative
+      advantage reverses their order
+    minimum-for-a-negative-advantage: your code uses the minimum of the ratio and 1 -
+      clip for a negative advantage. Use the maximum instead, because the larger ratio
+      has the smaller product with a negative advantage
     product-clipped: your code limits the product of the ratio and the advantage to the
       range from 1 - clip to 1 + clip. Limit the ratio first, and then multiply by the
       advantage

@@ -171,7 +171,7 @@ def test_data_without_a_clip_are_soon_worth_less():
     left, beyond = data_left(CLIP=1e9, ITERATIONS=1)
     assert left == pytest.approx(0.55, abs=0.04)
     assert beyond == pytest.approx(0.70, abs=0.04)
-    assert "it is 55 % after the first iteration" in SENTENCES
+    assert "effective sample size is 55 % after the first iteration" in SENTENCES
     assert "about 70 % of the ratios" in SENTENCES
     left, beyond = data_left(ITERATIONS=1)
     assert left == pytest.approx(0.99, abs=0.01)
@@ -191,7 +191,7 @@ def test_the_log_of_a_density_that_exp_cannot_represent_does_not_pass(student):
         results = check_tasks(day, path, sandbox, "20.1", seed=1)
     (verdict,) = [one.verdict for one in results if one.task.id == "20.1"]
     assert verdict.mistake == "underflow"
-    assert "not for an action far from it" in verdict.message
+    assert "not for an action far from the mean" in verdict.message
 
 
 @cache
@@ -256,7 +256,7 @@ MISTAKES = {
             r, v, w, end, ended, g, 1.0)},
     "the ratio forgotten in the gradient": {
         "ppo_loss": loss_with(lambda r, A, clip: -A * kept(r, A, clip))},
-    "clip above only": {
+    "ratio clipped above only": {
         "ppo_loss": loss_with(lambda r, A, clip: -r * A * kept(r, A, clip, False))},
     "advantage plus value instead of the advantage": {
         "gae": lambda r, v, *others: reward.gae(r, v, *others) + v},

@@ -64,41 +64,46 @@ def counted_down(above):
 @row.wrongs(hidden={"nan-is-infinity": "the limit of its check is 0.5"})
 def _(score, limit, ticks):
     """not-in-a-row: your code counts all scores above the limit. Set the counter to 0
-      at each score that is not above the limit, because only consecutive scores should
-      count
-    first-above: your function returns the first tick above the limit. Wait until
-      `ticks` of them are in a row, so that one noisy tick raises no alarm
-    start-of-the-row: your function returns the first of the ticks in a row. Return the
-      last of them, because the alarm is raised only then
+      at each score that is not above the limit, because only consecutive scores count
+    first-above: your function returns the first tick with a score above the limit. Wait
+      for `ticks` consecutive scores above the limit, so that a single noisy score
+      causes no alarm
+    start-of-the-row: your function returns the first of the `ticks` consecutive ticks
+      above the limit. Return the last of these ticks, because the alarm is raised only
+      then
     nan-is-fine: your code treats NaN as not above the limit. Treat NaN as above the
       limit, so that a lost measurement raises an alarm
     nan-is-skipped: your code ignores ticks with NaN. Treat NaN as above the limit, so
       that a lost measurement raises an alarm
-    at-the-limit: your code treats a score equal to the limit as above the limit. Only a
-      larger score is above it
-    one-more: your alarm is one tick late. Return the index of the last of the first
-      `ticks` consecutive scores above the limit
+    at-the-limit: your code treats a score equal to the limit as above the limit. Treat
+      only a larger score as above the limit
+    one-more: your code waits for ticks + 1 consecutive scores above the limit. Wait for
+      only `ticks` scores, and return the index of the last of these scores
     end-if-none: your function returns the number of ticks if there is no alarm. Return
-      -1 in this case
-    zero-if-none: your function returns 0 if there is no alarm. Return -1 in this case,
+      -1 instead
+    zero-if-none: your function returns 0 if there is no alarm. Return -1 instead,
       because 0 is the first tick
-    end-of-the-row: your function returns the last tick of all ticks in a row. Return
-      the tick at which `ticks` of them are in a row
+    end-of-the-row: your function returns the last tick before the score falls to the
+      limit or below. Return the first tick at which `ticks` consecutive scores have
+      been above the limit
     end-if-none 2: your function returns the last tick if there is no alarm. Return -1
-      in this case
-    counts-down: your code reduces the counter by 1 at a tick that is not above the
-      limit. Set it to 0, because the ticks have to be in a row
-    any-of-them: your code raises the alarm if any of the last ticks was above the
-      limit. All of the last `ticks` scores should be above it
-    counted-from-1: your code counts the ticks from 1. The first tick is tick 0
-    counted-from-1 2: your code counts the ticks from 1. The first tick is tick 0
-    mean: your code compares the mean of the last scores with the limit. Each of these
-      scores should be above the limit
-    nan-is-infinity: your code treats NaN as infinity, which is not above an infinite
-      limit. A lost measurement should raise an alarm with each limit
-    nan-at-once: your code raises the alarm at the first NaN. A NaN is only one tick
-      above the limit
-    last-alarm: your function returns the last tick with an alarm. Return the first one
+      instead
+    counts-down: your code reduces the counter by 1 at a score that is not above the
+      limit. Set the counter to 0 instead, because only consecutive scores count
+    any-of-them: your code raises the alarm if any of the last `ticks` scores is above
+      the limit. Raise the alarm only if all of these scores are above the limit
+    counted-from-1: your code counts the ticks from 1. Count from 0 instead, because the
+      first tick is tick 0
+    counted-from-1 2: your code counts the ticks from 1. Count from 0 instead, because
+      the first tick is tick 0
+    mean: your code compares the mean of the last `ticks` scores with the limit. Compare
+      each of these scores with the limit instead
+    nan-is-infinity: your code replaces NaN by infinity, which is not above an infinite
+      limit. Treat NaN as above every limit, so that a lost measurement raises an alarm
+    nan-at-once: your code raises the alarm at the first NaN. Count a NaN as one score
+      above the limit instead
+    last-alarm: your function returns the last tick at which an alarm is raised. Return
+      the first such tick instead
     """
     above = ~(score <= limit)
     right = at(above, ticks)

@@ -27,26 +27,26 @@ row.cases(
 
 @row.wrongs(hidden={"squared-speed": "its limit is 1, which is its own square"})
 def _(v, limit):
-    """per-axis: your code clamps each entry by itself, which changes the direction.
-      Multiply all entries by the same factor
-    always-full: your code also speeds up a velocity that is slow enough. Return a
-      velocity whose norm is at most the limit as it is
-    always-full 2: your code also speeds up a velocity that is slow enough. Return a
-      velocity whose norm is at most the limit as it is
-    stops: your function returns 0 for a velocity that is too fast. Return the velocity
+    """per-axis: your code clamps each entry separately, which changes the direction.
+      Multiply all entries by the same factor instead
+    always-full: your code sets the speed to the limit even for a slower velocity.
+      Return a velocity unchanged if its norm is at most the limit
+    always-full 2: your code sets the speed to the limit even for a slower velocity.
+      Return a velocity unchanged if its norm is at most the limit
+    stops: your function returns 0 for a velocity that is too fast. Return a velocity
       with the same direction and the norm `limit` instead
-    largest: your code compares the largest entry with the limit. Compare the norm of
-      the velocity with the limit, because the speed is the norm
+    largest: your code compares the largest absolute entry with the limit. Compare the
+      norm of the velocity with the limit instead, because the speed is the norm
     city-block: your code compares the sum of the absolute entries with the limit.
-      Compare the Euclidean norm of the velocity with the limit
+      Compare the Euclidean norm of the velocity with the limit instead
     not-reduced: your code multiplies a velocity that is too fast by the limit. Multiply
-      it by limit / speed, so that its norm becomes the limit
-    at-rest: your code divides the velocity 0 by its norm. Divide by the norm only if it
-      is above the limit
+      the velocity by limit / speed instead, so that its norm is the limit
+    at-rest: your code divides the velocity 0 by its norm. Divide by the norm only if
+      the norm is above the limit
     squared-speed: your code compares the squared norm with the limit. Compare the norm
-      with the limit, because the limit is a speed
-    first-two: your code uses only the first two entries for the norm. Use all entries,
-      because a velocity may have three of them
+      with the limit instead, because the limit is a speed
+    first-two: your code computes the norm from the first two entries only. Use all
+      entries, because a velocity can have more than two entries
     """
     speed = np.linalg.norm(v)
     entry = np.max(np.abs(v))

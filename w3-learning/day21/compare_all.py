@@ -92,50 +92,53 @@ def unpaired(a, b):
 
 @row.wrongs(hidden=dict.fromkeys(("mask-sorted", "sorted"), SORTED))
 def _(success):
-    """uncorrected: your code compares each p-value with 0.05. With several comparisons
-      a false difference is more likely, so use Holm's method
-    bonferroni: your code compares each p-value with 0.05 / (k - 1). Only the smallest
-      p-value has this limit in Holm's method
-    bonferroni 2: your code compares each p-value with 0.05 / k. Holm's method has k - 1
-      comparisons, and only the smallest p-value has the limit 0.05 / (k - 1)
+    """uncorrected: your code compares each p-value with 0.05. Use Holm's limits
+      instead, because a false difference is more probable with several comparisons
+    bonferroni: your code compares each p-value with 0.05 / (k - 1). Use this limit only
+      for the smallest p-value, 0.05 / (k - 2) for the next p-value, and so on
+    bonferroni 2: your code compares each p-value with 0.05 / k. Use the limit 0.05 / (k
+      - 1) for the smallest p-value, 0.05 / (k - 2) for the next p-value, and so on
     false-discovery: your code uses the method of Benjamini and Hochberg, which limits
-      the fraction of false differences. Holm's method permits fewer of them
+      the fraction of false differences. Use Holm's method instead, which limits the
+      probability of any false difference
     smallest-only: your code compares only the smallest p-value with its limit. Continue
-      with the next one until a p-value is above its limit
-    by-place: your code assigns Holm's limits in the order of the rows. The smallest
-      p-value has the smallest limit, so sort the p-values first
-    mask-sorted: your mask of differences is in the order of the p-values. Return it in
-      the order of the policies
-    against-the-next: your code compares each policy with the next one. Compare the
-      first policy with each of the others
-    with-itself: your code gives Holm's method also the comparison of the first policy
-      with itself. There are only k - 1 comparisons
-    against-the-best: your code compares with the policy that has the most successes.
-      The policy to compare with is the first one, chosen before the test
-    unpaired: your code compares the success rates as if the starts were not the same.
-      Use the sign test, because both policies have the same starts
+      with the next p-value, and stop at the first p-value that is above its limit
+    by-place: your code assigns Holm's limits in the order of the rows. Sort the
+      p-values first, because the smallest p-value has the smallest limit
+    mask-sorted: your function returns the mask in the order of the sorted p-values.
+      Return the mask in the order of the policies instead
+    against-the-next: your code compares each policy with the next policy. Compare the
+      first policy with each of the others instead
+    with-itself: your code includes the comparison of the first policy with itself in
+      Holm's method. Include only the k - 1 comparisons with the other policies
+    against-the-best: your code compares the policy that has the most successes with the
+      others. Compare the first policy with the others instead, because it was chosen
+      before the test
+    unpaired: your code compares the success rates as if the policies had different
+      starts. Use the sign test instead, because all policies have the same starts
     against-the-last: your code compares the last policy with the others. Compare the
-      first policy with each of the others
+      first policy with each of the others instead
     does-not-stop: your code continues after the first p-value that is above its limit.
-      Holm's method finds no further difference from there on
-    adjusted: your p-values are multiplied by the number of comparisons. Return the
-      p-values of the sign test, because Holm's method divides the limits instead
+      Stop at this p-value, because no larger p-value is significant either
+    adjusted: your function returns p-values that are corrected for the number of
+      comparisons. Return the p-values of the sign test, because Holm's method changes
+      only the limits
     only-if-better: your code reports only differences in which the first policy is
-      better. A policy that is significantly better than the first is different as well
-    all-successes: your code uses all successes of both policies. The sign test uses
-      only the starts on which exactly one of the two policies succeeds
-    one-sided: your p-values are one-sided. Use the two-sided sign test, because the
-      first policy may be worse, too
+      better. Report a significant difference in the other direction as well
+    all-successes: your code compares the total numbers of successes of both policies.
+      Use only the starts on which exactly one of the two policies succeeds
+    one-sided: your p-values are one-sided. Use the two-sided sign test instead, because
+      the first policy can also be worse
     own-row: your function also compares the first policy with itself, so it returns k
       entries. Return only the k - 1 comparisons with the others
-    columns: your code treats each column of `success` as a policy. Each row is a
-      policy, and each column is a start
-    sorted: your function returns the p-values in ascending order. Return them in the
-      order of the policies
+    columns: your code treats each column of `success` as a policy. Treat each row as a
+      policy instead, because each column is a start
+    sorted: your function returns the p-values in ascending order. Return the p-values
+      in the order of the policies instead
     every-pair: your function compares all pairs of policies. Return only the k - 1
       comparisons of the first policy with the others
-    all-pairs: your code corrects for all pairs of policies. Only the k - 1 comparisons
-      with the first policy are made
+    all-pairs: your code corrects for all pairs of policies. Correct only for the k - 1
+      comparisons with the first policy
     """
     p = pairs(success[0], success[1:])
     best = np.argmax(success.sum(axis=1))

@@ -55,38 +55,38 @@ def _(scores, share):
     quantile 2: your function rounds a quantile of the n scores up to a score. Return
       the k-th smallest score, k = ceil((n + 1) (1 - share))
     clamped: your function returns the largest score if there are too few scores. Return
-      infinity, because no smaller limit has the guarantee
+      infinity instead, because no finite limit has the guarantee
     clamped 2: your function returns the largest score if there are too few scores.
-      Return infinity, because no smaller limit has the guarantee
-    floor: your code rounds the rank down. Round it up, so that a new score exceeds the
-      limit with a probability of at most `share`
-    floor 2: your code rounds the rank down. Round it up, so that a new score exceeds
-      the limit with a probability of at most `share`
-    n-scores: your rank is ceil(n (1 - share)). Use n + 1, because the new score has one
-      of n + 1 ranks
+      Return infinity instead, because no finite limit has the guarantee
+    floor: your code rounds the rank down. Round the rank up instead, so that a new
+      score exceeds the limit with a probability of at most `share`
+    floor 2: your code rounds the rank down. Round the rank up instead, so that a new
+      score exceeds the limit with a probability of at most `share`
+    n-scores: your code uses the rank ceil(n * (1 - share)). Replace n by n + 1, because
+      the new score has one of n + 1 ranks
     largest: your function returns the largest score. Return the k-th smallest score, k
       = ceil((n + 1) (1 - share))
-    share-of-the-small: your limit has the fraction `share` of the scores below it. Only
-      this fraction of new scores should be above the limit, so use 1 - share
-    counted-from-0: your limit is one rank too high. The k-th smallest of the sorted
-      scores has the index k - 1
-    floor-plus-1: your code rounds the rank down and adds 1. This is one rank too high
-      if (n + 1) (1 - share) is a whole number, so round up instead
+    share-of-the-small: your code uses `share` as the fraction of the scores below the
+      limit. Use 1 - share instead, because `share` is the fraction above the limit
+    counted-from-0: your limit is one rank too high. The k-th smallest score has the
+      index k - 1 in the sorted scores
+    floor-plus-1: your code rounds the rank down and adds 1. Round the rank up instead,
+      because your rank is too high if (n + 1) * (1 - share) is a whole number
     interpolated: your code interpolates between two scores, and returns the largest
-      score if there are too few scores. Return the k-th smallest score itself, and
-      infinity if k is above n
-    interpolated 2: your rank is right, but your code interpolates between two scores.
+      score if k is above n. Return the k-th smallest score itself, and infinity if k is
+      above n
+    interpolated 2: your rank is correct, but your code interpolates between two scores.
       Return the k-th smallest score itself
-    nan-if-few: your function returns NaN if there are too few scores. Return infinity,
-      because every comparison with NaN is False
+    nan-if-few: your function returns NaN if there are too few scores. Return infinity
+      instead, because no finite limit has the guarantee
     nan-if-few 2: your function returns -infinity if there are too few scores. Return
-      +infinity, which no score exceeds
-    infinite-too-soon: your code also returns infinity if k is n. The k-th smallest
-      score is then the largest score, so return infinity only if k is above n
-    without-ties: your code removes equal scores. Keep all n scores, because each of
-      them has a rank of its own
-    gaussian: your limit assumes that the scores have a normal distribution. Use the
-      rank of the scores, which needs no assumption about the distribution
+      infinity instead, which no score exceeds
+    infinite-too-soon: your function returns infinity even if k = n. Return the largest
+      score in this case, and infinity only if k is above n
+    without-ties: your code removes equal scores. Keep all n scores, because each score
+      has its own rank
+    gaussian: your code computes the limit as for a normal distribution. Use the rank of
+      the scores instead, because their distribution is unknown
     """
     n = len(scores)
     ranked = np.append(np.sort(scores), np.inf)

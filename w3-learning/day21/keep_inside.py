@@ -67,51 +67,59 @@ def _(rng):
     }
 )
 def _(p, v, low, high, dt):
-    """stops-all: your code sets the whole velocity to 0 if the next position leaves the
-      box along one axis. Limit each entry of the velocity separately, so that the hand
-      can slide along a wall
-    stops-all 2: your code sets the whole velocity to 0 if the next position leaves the
-      box along one axis. Limit each entry of the velocity separately, so that the hand
-      can slide along a wall
-    shortened: your code multiplies the whole velocity by one factor, so a wall stops
-      the motion along it as well. Limit each entry by itself
-    axis-stops: your code sets an entry to 0 if the next position would be outside.
-      Limit this entry so that the hand just reaches the wall
-    axis-stops 2: your code sets an entry to 0 if the next position would be outside.
-      Limit this entry so that the hand just reaches the wall
-    jumps-back: your velocity brings a position outside of the box to the wall in one
-      step. Leave an entry that leads back as it is, so that the hand does not jump
-    dt-forgotten: your bounds of the velocity are the distances to the walls. Divide
-      each distance by dt
+    """stops-all: your code sets the whole velocity to 0 if one entry of the next
+      position is outside the box. Limit each entry separately instead, so that the hand
+      can slide along the wall
+    stops-all 2: your code sets the whole velocity to 0 if one entry of the next
+      position is outside the box. Limit each entry separately instead, so that the hand
+      can slide along the wall
+    shortened: your code multiplies the whole velocity by one factor. Limit each entry
+      separately instead, so that the hand can slide along the wall
+    axis-stops: your code sets an entry of the velocity to 0 if the next position would
+      be outside. Reduce the entry instead, so that the next position is on the wall
+    axis-stops 2: your code sets an entry of the velocity to 0 if the next position
+      would be outside. Reduce the entry instead, so that the next position is on the
+      wall
+    jumps-back: your code moves the hand from outside the box to the wall in one step.
+      Keep an entry of the velocity that leads back, and use 0 for an entry that leads
+      further out
+    dt-forgotten: your code uses the distances to the walls as bounds of the velocity.
+      Divide each distance by `dt`
     only-if-outside: your code limits the velocity only if the position is already
-      outside. Limit the velocity so that the next position, p + dt v, is not outside
+      outside. Limit the velocity so that the next position, p + dt * v, does not leave
+      the box
     only-if-outside 2: your code limits the velocity only if the position is already
-      outside. Limit the velocity so that the next position, p + dt v, is not outside
-    may-not-return: your velocity is 0 at every position outside of the box. Keep an
-      entry that leads back to the box
+      outside. Limit the velocity so that the next position, p + dt * v, does not leave
+      the box
+    may-not-return: your code sets an entry of the velocity to 0 if the position is
+      outside along this axis. Keep an entry that leads back to the box
     position: your function returns the next position. Return the velocity instead
     position 2: your function returns the next position. Return the velocity instead
-    no-position: your bounds of the velocity omit the position. The distance
-      to a wall is the wall minus the position
-    no-position 2: your bounds of the velocity omit the position. The distance
-      to a wall is the wall minus the position
-    fixed-duration: your code uses a fixed duration of 0.1 s. Use `dt`
-    through: your code does not limit a velocity that leads back from outside. Limit it
-      as well, because it can lead through the whole box to the other side
-    upper-only: your code uses only the upper walls. Limit the velocity at the lower
-      walls as well
-    lower-only: your code uses only the lower walls. Limit the velocity at the upper
-      walls as well
-    first-walls: your code uses the walls of the first entry for all entries. Each entry
-      has its own walls
-    first-two: your code limits only the first two entries. A position may have three
-      entries, so limit all of them
-    symmetric: your code uses `-high` as the lower wall. Use `low`, because the box need
-      not be symmetric
-    min-and-max: your code exchanges the minimum and the maximum with 0. The lower bound
-      of the velocity is at most 0, and the upper bound is at least 0
-    no-way-back: your code stops an entry that leads back from outside, and keeps one
-      that leads further out. It should be the other way round
+    no-position: your code omits the position from the bounds of the velocity. Subtract
+      the position from each wall, because the bounds depend on the distances to the
+      walls
+    no-position 2: your code omits the position from the bounds of the velocity.
+      Subtract the position from each wall, because the bounds depend on the distances
+      to the walls
+    fixed-duration: your code uses a fixed duration of 0.1 s. Use the argument `dt`
+      instead
+    through: your code does not limit an entry that leads back from outside. Limit this
+      entry at the opposite wall, because otherwise the hand can pass through the whole
+      box
+    upper-only: your code limits the velocity only at the upper walls. Limit the
+      velocity at the lower walls as well
+    lower-only: your code limits the velocity only at the lower walls. Limit the
+      velocity at the upper walls as well
+    first-walls: your code uses the walls of the first entry for all entries. Use the
+      walls of each entry instead
+    first-two: your code limits only the first two entries. Limit all entries, because a
+      position can have more than two entries
+    symmetric: your code uses `-high` as the lower wall. Use `low` instead, because the
+      box need not be symmetric
+    min-and-max: your code swaps the minimum and the maximum with 0. The lower bound of
+      the velocity should be at most 0, and the upper bound at least 0
+    no-way-back: your code stops an entry that leads back from outside and keeps an
+      entry that leads further out. Swap these two cases
     """
     after = p + dt * v
     there = np.clip(after, low, high)

@@ -23,14 +23,15 @@ def _(rng):
 
 @row.wrongs
 def _(v, stiffness, inertia):
-    """half: your code uses the damping sqrt(K Lambda), half of the critical damping.
-      Use D = 2 sqrt(K Lambda)
-    force: your function returns the force of the damper. Divide it by the stiffness to
-      obtain the extension of the spring
+    """half: your code uses the damping sqrt(K * Lambda), which is half of the critical
+      damping. Use D = 2 * sqrt(K * Lambda) instead
+    force: your function returns the force of the damper. Divide this force by the
+      stiffness to obtain the extension of the spring
     feedforward: your function returns 0, which is the lag with feedforward velocity.
-      Without it, the spring balances the force of the damper
+      Without feedforward velocity, the spring balances the force of the damper
     energy: your code equates the kinetic energy of the hand with the energy of the
-      spring. In the steady state the spring balances the force of the damper
+      spring. Equate the forces of the spring and the damper instead, because nothing
+      accelerates in the steady state
     """
     return {
         "half": v * np.sqrt(inertia / stiffness),

@@ -171,46 +171,50 @@ def from_the_start(obs, actions, dt, steps, reach):
 def _(obs, actions, dt, steps, reach):
     """one-part: your code moves the pusher by a whole action before it moves the puck.
       Divide each action into `steps` parts, because the direction of the push changes
-    puck-moves-along: your code moves a puck in contact with the velocity of the pusher.
-      Without friction the puck moves along the line of centres
-    along-the-action: your code moves the puck in the direction of the action. Without
-      friction the puck moves along the line of centres
-    pusher-stops: if the puck is nearer than `reach`, your code moves the pusher away
-      from the puck. The pusher moves as commanded, so move the puck
-    half-each: your code divides the overlap between both bodies. The pusher moves as
-      commanded, so move only the puck
-    pulls: your code moves the puck to the distance `reach` even if it is farther away.
-      The pusher cannot pull, so move the puck only if it is nearer than `reach`
-    puck-first: your code moves the puck before the pusher moves. Move the pusher first
-      in each part, because its move makes the overlap
-    by-the-reach: your code moves the puck by `reach`. Move the puck to the distance
-      `reach` from the pusher
-    one-action: your code uses only the first action. Apply all actions in turn
+    puck-moves-along: your code moves a puck in contact by the same displacement as the
+      pusher. Move the puck along the line of centres instead, because the contact has
+      no friction
+    along-the-action: your code moves the puck in the direction of the action. Move the
+      puck along the line of centres instead, because the contact has no friction
+    pusher-stops: your code moves the pusher away from the puck if the distance is below
+      `reach`. Move the puck instead, because the pusher moves as commanded
+    half-each: your code moves each body by half of the overlap. Move only the puck,
+      because the pusher moves as commanded
+    pulls: your code moves the puck to the distance `reach` even if the puck is farther
+      away. Move the puck only if it is nearer than `reach`, because the pusher cannot
+      pull
+    puck-first: your code moves the puck before the pusher. Move the pusher first in
+      each part, because the motion of the pusher causes the overlap
+    by-the-reach: your code moves the puck by the distance `reach`. Move the puck to the
+      distance `reach` from the pusher instead
+    one-action: your code uses only the first action. Apply all actions, one after the
+      other
     parts-not-shorter: your code moves the pusher by a whole action in each part. Divide
-      the move of an action by `steps`
-    old-line: your code uses the line of centres before the pusher's move. Compute the
-      line after the move, because the overlap is along that line
-    old-line 2: your code uses the line of centres before the pusher's move. Compute the
-      line after the move, because the overlap is along that line
-    half-overlap: your code moves the puck by half of the overlap. Move it until the
-      distance is `reach`
-    component: your code moves the puck by the component of the pusher's move along the
-      line of centres. Move it until the distance is `reach`
-    each-from-the-start: your code begins each action at the first position of the
-      pusher. Begin where the action before has ended
-    relative: your puck is relative to the pusher. Return its position in the plane
+      the displacement of each action by `steps`
+    old-line: your code uses the line of centres before the pusher's motion. Use the
+      line of centres after the motion instead, because the overlap is along that line
+    old-line 2: your code uses the line of centres before the pusher's motion. Use the
+      line of centres after the motion instead, because the overlap is along that line
+    half-overlap: your code moves the puck by half of the overlap. Move the puck by the
+      whole overlap instead, so that the distance is `reach`
+    component: your code moves the puck by the component of the pusher's motion along
+      the line of centres. Move the puck until the distance is `reach` instead
+    each-from-the-start: your code begins each action at the initial position of the
+      pusher. Begin each action where the previous action has ended
+    relative: your function returns the position of the puck relative to the pusher.
+      Return the position of the puck in the plane instead
     squared: your code compares the squared distance with `reach`. Compare the distance
-      itself
-    puck-first-in-obs: your code treats the first two entries of `obs` as the puck. They
-      are the pusher
+      itself with `reach` instead
+    puck-first-in-obs: your code treats the first two entries of `obs` as the puck.
+      These entries are the position of the pusher
     puck-first-in-obs 2: your code treats the first two entries of `obs` as the puck.
-      They are the pusher
-    interleaved: your code goes through all actions once for each part. Finish all parts
-      of an action before the next action
-    last-contact: your code does not move the puck after the last move of the pusher.
-      Move the puck in each part, also in the last one
-    puck-only: your puck is right, but your pusher stays at its start. Return the
-      pusher's position after all actions
+      These entries are the position of the pusher
+    interleaved: your code executes one part of every action before the next part of the
+      first action. Finish all parts of an action before you begin the next action
+    last-contact: your code does not move the puck after the last motion of the pusher.
+      Move the puck in every part, including the last part
+    puck-only: your function returns the initial position of the pusher. Return the
+      position of the pusher after all actions. Your puck is correct
     """
     given = obs, actions, dt, steps, reach
     other = np.roll(obs, 2), actions, dt, steps, reach

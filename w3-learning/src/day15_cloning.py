@@ -69,8 +69,8 @@ def fit_scaler(x: np.ndarray) -> np.ndarray:
     """
     # region 15.3
     constant = (x == x[0]).all(axis=0)  # columns whose entries are all equal
-    spread = np.where(constant, 1, x.std(axis=0))  # standard deviations, or 1
-    return np.array([x.mean(axis=0), spread])  # the means above the deviations
+    spread = np.where(constant, 1, x.std(axis=0))  # standard deviations
+    return np.array([x.mean(axis=0), spread])  # means and standard deviations
     # endregion 15.3
 
 
@@ -127,7 +127,7 @@ def mse(pred: np.ndarray, target: np.ndarray) -> tuple[float, np.ndarray]:
     """
     # region 15.5
     error = pred - target  # error of each entry
-    return np.mean(error**2), 2 * error / error.size  # the loss, and its gradient
+    return np.mean(error**2), 2 * error / error.size  # the loss and its gradient
     # endregion 15.5
 
 
@@ -185,10 +185,10 @@ def adam_step(
     """
     # region 15.7
     m = 0.9 * m + 0.1 * grad  # average of the gradient
-    v = 0.999 * v + 0.001 * grad**2  # average of its square
-    mean = m / (1 - 0.9**k)  # the average, corrected for its start at 0
-    square = v / (1 - 0.999**k)  # the average of the square, corrected likewise
-    return theta - rate * mean / (np.sqrt(square) + 1e-8), m, v  # after the step
+    v = 0.999 * v + 0.001 * grad**2  # average of the squared gradient
+    mean = m / (1 - 0.9**k)  # corrected average of the gradient
+    square = v / (1 - 0.999**k)  # corrected average of the squared gradient
+    return theta - rate * mean / (np.sqrt(square) + 1e-8), m, v  # new parameters
     # endregion 15.7
 
 

@@ -51,10 +51,10 @@ def action_chunks(
     first = np.append(True, episode[1:] != episode[:-1])  # rows that begin an episode
     number = np.cumsum(first)  # the episodes, counted in the order of time
     row = np.arange(len(action))[:, None] + np.arange(K)  # the row of each entry
-    known = np.minimum(row, len(action) - 1)  # the same within the data
+    known = np.minimum(row, len(action) - 1)  # the row of each entry within the data
     same = number[known] == number[:, None]  # entries of the same episode
-    mask = 1.0 * (same & (row < len(action)))  # 1 for the entries that exist
-    return action[known] * mask[:, :, None], mask  # chunks and mask
+    mask = 1.0 * (same & (row < len(action)))  # mask; 1 for the entries that exist
+    return action[known] * mask[:, :, None], mask  # the chunks and the mask
     # endregion 16.1
 
 
@@ -71,7 +71,7 @@ def masked_l1(
     (1.333333, [[[0.333333], [0]], [[0.333333], [0]]])
     """
     # region 16.2
-    entries = pred.shape[2] * mask.sum()  # numbers that the mean is taken over
+    entries = pred.shape[2] * mask.sum()  # number of existing errors
     weight = mask[:, :, None] / entries  # weight of each error
     error = pred - target  # error of each entry
     return np.sum(weight * np.abs(error)), weight * np.sign(error)  # loss and gradient
@@ -121,7 +121,7 @@ def started_share(wait: int, K: int) -> np.ndarray:
     started_share(1, 3) -> [0.5, 1, 1]
     """
     # region 16.4
-    rows = np.arange(1, K + 1)  # rows that have started by each entry
+    rows = np.arange(1, K + 1)  # number of rows that have started by each entry
     return np.minimum(1, rows / (wait + 1))  # the fractions
     # endregion 16.4
 
@@ -166,7 +166,7 @@ def encoder_gradient(
     std = np.exp(logvar / 2)  # the standard deviations
     dmu = dz + each * mu  # the gradient of mu
     dlogvar = dz * noise * std / 2 + each * (std**2 - 1) / 2  # the gradient of logvar
-    return dmu, dlogvar  # both
+    return dmu, dlogvar  # both gradients
     # endregion 16.7
 
 
@@ -180,8 +180,8 @@ def temporal_ensemble(plans: np.ndarray, decay: float) -> np.ndarray:
     """
     # region 16.8
     k = len(plans)  # number of plans
-    now = np.array([plans[i, k - 1 - i] for i in range(k)])  # their entries for now
-    weight = np.exp(-decay * np.arange(k))  # the weights before their sum is 1
+    now = np.array([plans[i, k - 1 - i] for i in range(k)])  # entries for this step
+    weight = np.exp(-decay * np.arange(k))  # unnormalised weights
     return weight @ now / weight.sum()  # the weighted mean
     # endregion 16.8
 
@@ -194,8 +194,8 @@ def ensemble_noise(k: int, decay: float) -> float:
     ensemble_noise(2, log(2)) -> 0.745356
     """
     # region 16.8
-    weight = np.exp(-decay * np.arange(k))  # the weights before their sum is 1
-    return np.sqrt(np.sum(weight**2)) / weight.sum()  # root of the sum of squares
+    weight = np.exp(-decay * np.arange(k))  # unnormalised weights
+    return np.sqrt(np.sum(weight**2)) / weight.sum()  # standard deviation of the mean
     # endregion 16.8
 
 
@@ -209,7 +209,7 @@ def attention(q: np.ndarray, k: np.ndarray, v: np.ndarray) -> np.ndarray:
     """
     # region 16.9
     logits = q @ k.T / np.sqrt(q.shape[1])  # the scaled products
-    weight = np.exp(logits - logits.max(axis=1, keepdims=True))  # at most 1
+    weight = np.exp(logits - logits.max(axis=1, keepdims=True))  # unnormalised weights
     return weight @ v / weight.sum(axis=1, keepdims=True)  # means of the values
     # endregion 16.9
 

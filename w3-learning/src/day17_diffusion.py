@@ -86,10 +86,10 @@ def exact_noise(
     """
     # region 17.3
     variance = abar * sigma**2 + 1 - abar  # the variance of each noisy mode
-    off = x[:, None] - np.sqrt(abar) * means  # distances from the means, (n, k, d)
-    power = -(off**2).sum(axis=2) / (2 * variance)  # exponent of each Gaussian, (n, k)
-    power = power - power.max(axis=1, keepdims=True)  # the largest exponent is 0
-    prob = weights * np.exp(power)  # probability of each mode, not normalised
+    off = x[:, None] - np.sqrt(abar) * means  # distances from the means; (n, k, d)
+    power = -(off**2).sum(axis=2) / (2 * variance)  # exponent of each Gaussian; (n, k)
+    power = power - power.max(axis=1, keepdims=True)  # exponents; the largest is 0
+    prob = weights * np.exp(power)  # probability of each mode before the normalisation
     prob = prob / prob.sum(axis=1, keepdims=True)  # probability of each mode
     mean = (prob[:, :, None] * off).sum(axis=1)  # mean distance from the noisy means
     return np.sqrt(1 - abar) / variance * mean  # the mean of the noise
@@ -106,7 +106,7 @@ def ddim_step(x: np.ndarray, eps: np.ndarray, abar: float, prev: float) -> np.nd
     """
     # region 17.4
     clean = (x - np.sqrt(1 - abar) * eps) / np.sqrt(abar)  # the clean samples
-    return np.sqrt(prev) * clean + np.sqrt(1 - prev) * eps  # the samples at prev
+    return np.sqrt(prev) * clean + np.sqrt(1 - prev) * eps  # samples at the level prev
     # endregion 17.4
 
 
@@ -173,7 +173,7 @@ def flow_pair(
     """
     # region 17.8
     t = t[:, None]  # the times as a column
-    return (1 - t) * noise + t * x0, x0 - noise  # the point, and its velocity
+    return (1 - t) * noise + t * x0, x0 - noise  # the point and its velocity
     # endregion 17.8
 
 
@@ -189,12 +189,12 @@ def exact_velocity(
     """
     # region 17.9
     variance = t**2 * sigma**2 + (1 - t) ** 2  # the variance of x in each mode
-    off = x[:, None] - t * means  # distances from the modes' means, (n, k, d)
-    power = -(off**2).sum(axis=2) / (2 * variance)  # exponent of each Gaussian, (n, k)
-    power = power - power.max(axis=1, keepdims=True)  # the largest exponent is 0
-    prob = weights * np.exp(power)  # probability of each mode, not normalised
+    off = x[:, None] - t * means  # distances from the modes' means; (n, k, d)
+    power = -(off**2).sum(axis=2) / (2 * variance)  # exponent of each Gaussian; (n, k)
+    power = power - power.max(axis=1, keepdims=True)  # exponents; the largest is 0
+    prob = weights * np.exp(power)  # probability of each mode before the normalisation
     prob = prob / prob.sum(axis=1, keepdims=True)  # probability of each mode
-    slope = (t * sigma**2 - (1 - t)) / variance  # the slope of the velocity over x
+    slope = (t * sigma**2 - (1 - t)) / variance  # ratio covariance / variance
     return (prob[:, :, None] * (means + slope * off)).sum(axis=1)  # the mean velocity
     # endregion 17.9
 

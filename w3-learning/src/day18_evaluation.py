@@ -71,10 +71,10 @@ def aggregate(first: tuple, second: tuple) -> tuple[np.ndarray, ...]:
     Episodes (0, 3) and (0, 1) become (0, 3, 4, 5).
     """
     # region 18.2
-    seen = np.vstack([first[0], second[0]])  # the observations of both
-    done = np.vstack([first[1], second[1]])  # the actions of both
+    seen = np.vstack([first[0], second[0]])  # observations of both data sets
+    done = np.vstack([first[1], second[1]])  # actions of both data sets
     free = first[2].max() + 1  # the first number that no episode has
-    return seen, done, np.append(first[2], free + second[2])  # rows of both
+    return seen, done, np.append(first[2], free + second[2])  # rows of both data sets
     # endregion 18.2
 
 
@@ -86,10 +86,10 @@ def episode_weights(episode: np.ndarray) -> np.ndarray:
     episode_weights([0, 0, 0, 1]) -> [0.666667, 0.666667, 0.666667, 2]
     """
     # region 18.3
-    _, of, length = np.unique(  # each row's episode, and the rows of each episode
+    _, of, length = np.unique(  # each row's episode and the length of each episode
         episode, return_inverse=True, return_counts=True
     )
-    return len(episode) / (len(length) * length[of])  # the weights, with the mean 1
+    return len(episode) / (len(length) * length[of])  # weights; their mean is 1
     # endregion 18.3
 
 
@@ -105,7 +105,7 @@ def weighted_mse(
     """
     # region 18.3
     error = pred - target  # error of each entry
-    part = weight[:, None] / (weight.sum() * error.shape[1])  # fraction of each entry
+    part = weight[:, None] / (weight.sum() * error.shape[1])  # normalised weights
     return np.sum(part * error**2), 2 * part * error  # the loss, and its gradient
     # endregion 18.3
 
@@ -123,8 +123,8 @@ def sign_test(first: np.ndarray, second: np.ndarray) -> float:
     wins = int(np.sum(first & ~second))  # starts on which only the first succeeds
     losses = int(np.sum(second & ~first))  # starts on which only the second succeeds
     pmf = binomial_pmf(wins + losses, 0.5)  # probabilities of the wins of fair coins
-    tail = np.sum(pmf[: min(wins, losses) + 1])  # probability of so few or fewer
-    return min(1.0, 2 * tail)  # both tails; an even split has both in common
+    tail = np.sum(pmf[: min(wins, losses) + 1])  # probability of the smaller tail
+    return min(1.0, 2 * tail)  # the p-value; both tails contain an even split
     # endregion 18.4
 
 
@@ -139,7 +139,7 @@ def gap_by_luck(p: float, n: int, gap: int) -> float:
     pmf = binomial_pmf(n, p)  # probabilities of the successes of one test
     k = np.arange(n + 1)  # the possible numbers
     far = np.abs(k[:, None] - k) >= gap  # the pairs of numbers with such a gap
-    return np.sum(np.outer(pmf, pmf)[far])  # the sum of their probabilities
+    return np.sum(np.outer(pmf, pmf)[far])  # sum of the probabilities of these pairs
     # endregion 18.5
 
 
@@ -153,14 +153,14 @@ def paired_power(win: float, lose: float, n: int, level: float) -> float:
     """
     # region 18.6
     differ = win + lose  # probability that exactly one policy succeeds
-    first = win / differ if differ > 0 else 0.0  # the probability of the first
+    first = win / differ if differ > 0 else 0.0  # win probability if policies differ
     power = 0.0  # the power so far
     for d, chance in enumerate(binomial_pmf(n, differ)):
         k = np.arange(d + 1)  # the possible numbers of wins
         few = np.cumsum(binomial_pmf(d, 0.5))  # probability of at most k wins
         p = np.minimum(1, 2 * few[np.minimum(k, d - k)])  # the p-values
         found = binomial_pmf(d, first)[p <= level]  # the wins that are reported
-        power += chance * np.sum(found)  # the power, with d starts that differ
+        power += chance * np.sum(found)  # power, with d starts that differ
     return power
     # endregion 18.6
 
@@ -186,11 +186,11 @@ def holm(p: np.ndarray) -> np.ndarray:
     """
     # region 18.8
     order = np.argsort(p, kind="stable")  # indices in ascending order of p
-    limits = 0.05 / np.arange(len(p), 0, -1)  # 0.05 / m, 0.05 / (m - 1), ..., 0.05
-    found = np.zeros(len(p), dtype=bool)  # no difference is significant so far
+    limits = 0.05 / np.arange(len(p), 0, -1)  # limits, from 0.05 / m to 0.05
+    found = np.zeros(len(p), dtype=bool)  # mask of significant differences; none so far
     found[order] = np.logical_and.accumulate(
         p[order] <= limits
-    )  # True before a failure
+    )  # sorted mask; True before the first failure
     return found
     # endregion 18.8
 

@@ -59,7 +59,7 @@ def height_map(
     for (x, y), r in zip(centres, radii, strict=True):
         square = (xs - x) ** 2 + (ys[:, None] - y) ** 2  # squared distance of each ray
         height = np.sqrt(np.maximum(r**2 - square, 0))  # height of this sphere
-        highest = np.maximum(highest, height)  # the higher sphere at each pixel
+        highest = np.maximum(highest, height)  # largest height at each pixel so far
     return highest  # the height map
     # endregion 19.1
 
@@ -123,8 +123,8 @@ def conv2d_gradient(
                 slice(a, a + stride * (rows - 1) + 1, stride),
                 slice(b, b + stride * (columns - 1) + 1, stride),
             )
-            of_kernel[a, b] = np.sum(d * image[seen])  # outputs times these pixels
-            of_image[seen] += d * kernel[a, b]  # outputs times this entry, added
+            of_kernel[a, b] = np.sum(d * image[seen])  # gradient of one kernel entry
+            of_image[seen] += d * kernel[a, b]  # gradient of the pixels, so far
     return of_kernel, of_image  # both gradients
     # endregion 19.4
 
@@ -165,7 +165,7 @@ def spatial_softmax_gradient(
     weight = np.exp((maps - most) / temperature)  # weights that are not normalised
     p = weight / weight.sum(axis=(1, 2), keepdims=True)  # the weights of the pixels
     at = d[:, 0, None, None] * xs + d[:, 1, None, None] * ys[:, None]  # x d_x + y d_y
-    mean = np.sum(p * at, axis=(1, 2), keepdims=True)  # its expected value
+    mean = np.sum(p * at, axis=(1, 2), keepdims=True)  # expected value of x d_x + y d_y
     return p * (at - mean) / temperature  # the gradient
     # endregion 19.6
 
@@ -196,7 +196,7 @@ def quarter_turn(
     """
     # region 19.8
     for _ in range(k % 4):
-        images = images[:, ::-1].transpose(0, 2, 1)  # new [i, j] is old [h - 1 - j, i]
+        images = images[:, ::-1].transpose(0, 2, 1)  # rotated images
         action = np.array([-action[1], action[0]])  # the rotated vector
     return images.copy(), action.copy()  # the rotated images and the action
     # endregion 19.8

@@ -59,7 +59,7 @@ def log_prob(action: np.ndarray, mean: np.ndarray, log_std: np.ndarray) -> np.nd
     log_prob([[1]], [[0]], [0.693147]) -> [-1.737086]
     """
     # region 20.1
-    z = (action - mean) / np.exp(log_std)  # distance from the mean, in standard units
+    z = (action - mean) / np.exp(log_std)  # standardised distance from the mean
     each = -(z**2) / 2 - log_std - np.log(2 * np.pi) / 2  # logarithm of each entry
     return each.sum(axis=1)  # the logarithm of the product
     # endregion 20.1
@@ -76,7 +76,7 @@ def log_prob_gradient(
     """
     # region 20.1
     std = np.exp(log_std)  # standard deviation of each entry
-    z = (action - mean) / std  # distance from the mean, in standard units
+    z = (action - mean) / std  # standardised distance from the mean
     return z / std, z**2 - 1  # derivatives with respect to mean and log_std
     # endregion 20.1
 
@@ -124,7 +124,7 @@ def gae(
     out = np.zeros(reward.shape)  # the advantages
     after = np.zeros(reward.shape[1])  # advantage of the next step
     for t in reversed(range(len(reward))):
-        kept = np.where(ended[t], 0, after)  # 0 where another episode follows
+        kept = np.where(ended[t], 0, after)  # advantage of the next step, or 0
         after = delta[t] + gamma * lam * kept  # advantage of this step
         out[t] = after  # the advantages so far
     return out
@@ -157,11 +157,11 @@ def ppo_loss(
     ppo_loss([0.405465, -0.693147], [0, 0], [1, -1], 0.2) -> (-0.2, [0, 0])
     """
     # region 20.5
-    ratio = np.exp(np.minimum(logp - old_logp, 600))  # ratios, which do not overflow
+    ratio = np.exp(np.minimum(logp - old_logp, 600))  # ratios; none overflows
     plain = ratio * advantage  # terms without clipping
     clipped = np.clip(ratio, 1 - clip, 1 + clip) * advantage  # terms with clipping
     loss = -np.mean(np.minimum(plain, clipped))  # the clipped loss
-    return loss, np.where(plain <= clipped, -plain / len(ratio), 0)  # its gradient
+    return loss, np.where(plain <= clipped, -plain / len(ratio), 0)  # loss and gradient
     # endregion 20.5
 
 
@@ -184,12 +184,12 @@ def policy_cost(
     """
     # region 20.6
     M = A - B @ K  # the closed loop
-    weight = Q + K.T @ R @ K  # cost of the state, with the mean action
+    weight = Q + K.T @ R @ K  # cost matrix of the state and the mean input
     cost = T * std**2 * np.trace(R)  # cost of the noise itself
-    X = S  # E[x x^T]
+    X = S  # matrix E[x x^T]
     for _ in range(T):
         cost = cost + np.trace(weight @ X)  # the sum so far
-        X = M @ X @ M.T + std**2 * B @ B.T  # E[x x^T] after the step
+        X = M @ X @ M.T + std**2 * B @ B.T  # matrix E[x x^T] after the step
     return cost
     # endregion 20.6
 
@@ -211,13 +211,13 @@ def policy_cost_gradient(
     """
     # region 20.7
     M = A - B @ K  # the closed loop
-    moments = [S]  # E[x x^T] before each step
+    moments = [S]  # matrix E[x x^T] before each step
     for _ in range(T - 1):
         moments.append(M @ moments[-1] @ M.T + std**2 * B @ B.T)
     P = np.zeros(Q.shape)  # cost-to-go after the last step
     slope = np.zeros(K.shape)  # the sum so far
     for X in reversed(moments):
-        slope = slope + 2 * (R @ K - B.T @ P @ M) @ X  # this step's part
+        slope = slope + 2 * (R @ K - B.T @ P @ M) @ X  # sum so far
         P = Q + K.T @ R @ K + M.T @ P @ M  # cost-to-go from this step on
     return slope
     # endregion 20.7
@@ -231,7 +231,7 @@ def effective_samples(logp: np.ndarray, old_logp: np.ndarray) -> float:
     """
     # region 20.8
     exponent = logp - old_logp  # logarithms of the weights
-    w = np.exp(exponent - exponent.max())  # weights, the largest of which is 1
+    w = np.exp(exponent - exponent.max())  # scaled weights; the largest is 1
     return w.sum() ** 2 / np.sum(w**2)  # the effective number of samples
     # endregion 20.8
 

@@ -51,8 +51,8 @@ def clamp_speed(v: np.ndarray, limit: float) -> np.ndarray:
     # region 21.1
     speed = np.linalg.norm(v)  # norm of the velocity
     if speed <= limit:
-        return v  # slow enough
-    return v * (limit / speed)  # the same direction, at the limit
+        return v  # velocity that is slow enough
+    return v * (limit / speed)  # velocity at the limit
     # endregion 21.1
 
 
@@ -69,9 +69,9 @@ def keep_inside(
     keep_inside([0.19, 0.1], [0.2, 0.1], [-0.2, -0.3], [0.2, 0.3], 0.1) -> [0.1, 0.1]
     """
     # region 21.2
-    slowest = np.minimum((low - p) / dt, 0)  # 0 for an entry that is below the box
-    fastest = np.maximum((high - p) / dt, 0)  # 0 for an entry that is above the box
-    return np.clip(v, slowest, fastest)  # each entry limited by itself
+    slowest = np.minimum((low - p) / dt, 0)  # lower bound; 0 below the box
+    fastest = np.maximum((high - p) / dt, 0)  # upper bound; 0 above the box
+    return np.clip(v, slowest, fastest)  # limited velocity
     # endregion 21.2
 
 
@@ -84,8 +84,8 @@ def plan_entry(plan: np.ndarray, drawn: int, now: int) -> np.ndarray:
     plan_entry([[1], [2], [3], [4], [5]], 12, 15) -> [4]
     """
     # region 21.3
-    row = min(now - drawn, len(plan) - 1)  # the last row if the plan has run out
-    return plan[row]  # its velocity
+    row = min(now - drawn, len(plan) - 1)  # index; the last row if the plan has run out
+    return plan[row]  # action of the present tick
     # endregion 21.3
 
 
@@ -102,14 +102,14 @@ def push_ahead(
     push_ahead([0, 0, 0.06, 0], [[0.1, 0]], 0.1, 5, 0.065) -> [0.01, 0, 0.075, 0]
     """
     # region 21.4
-    pusher, puck = obs[:2], obs[2:]  # the positions of both
+    pusher, puck = obs[:2], obs[2:]  # positions of the pusher and the puck
     for action in actions:
         for _ in range(steps):
-            pusher = pusher + action * dt / steps  # the pusher moves
-            apart = puck - pusher  # from the pusher to the puck
+            pusher = pusher + action * dt / steps  # position of the pusher
+            apart = puck - pusher  # vector from the pusher to the puck
             distance = np.linalg.norm(apart)  # distance of both centres
             if distance < reach:
-                puck = pusher + apart * reach / distance  # the puck is moved
+                puck = pusher + apart * reach / distance  # position of the puck
     return np.concatenate([pusher, puck])  # the observation at the end
     # endregion 21.4
 
@@ -138,12 +138,12 @@ def alarm_at(score: np.ndarray, limit: float, ticks: int) -> int:
     no such tick, return -1. alarm_at([0.1, 0.9, 0.2, 0.9, 0.9, 0.9], 0.5, 3) -> 5
     """
     # region 21.6
-    above = 0  # ticks in a row
+    above = 0  # number of consecutive ticks above the limit
     for tick in range(len(score)):
-        above = 0 if score[tick] <= limit else above + 1  # a NaN is not <= limit
+        above = 0 if score[tick] <= limit else above + 1  # counter; it counts a NaN
         if above == ticks:
-            return tick  # long enough in a row
-    return -1  # no alarm
+            return tick  # tick of the alarm
+    return -1  # result without an alarm
     # endregion 21.6
 
 
@@ -155,7 +155,7 @@ def lag_behind(v: float, stiffness: float, inertia: float) -> float:
     lag_behind(1, 1, 4) -> 4
     """
     # region 21.7
-    return 2 * v * np.sqrt(inertia / stiffness)  # the spring balances the damper
+    return 2 * v * np.sqrt(inertia / stiffness)  # lag; the spring balances the damper
     # endregion 21.7
 
 
@@ -169,10 +169,10 @@ def compare_all(success: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     0.00390625.
     """
     # region 21.8
-    p = np.array(  # the first policy and each other one
+    p = np.array(  # the p-values of the first policy and each other policy
         [evaluation.sign_test(success[0], other) for other in success[1:]]
     )
-    return p, evaluation.holm(p)  # the p-values, and which of them are significant
+    return p, evaluation.holm(p)  # the p-values and the mask of differences
     # endregion 21.8
 
 
@@ -390,6 +390,9 @@ def late_plans(lab: Lab, policy, start: np.ndarray) -> None:
         words = WAYS[how] if ticks else "not late"
         print(f"  {ticks} ticks late, {words:30} about {rounded(found[ticks, how]):3} "
               f"of {len(start)} within 10 mm")  # fmt: skip
+    for how, row in (("first", "their first row"), ("indexed", "the row for now")):
+        home = rounded(found[LATE, how])
+        lab.measured(f"late plans run from {row}, pucks of {len(start)}", home)
     gain = np.sum(found[LATE, "ahead"]) - np.sum(found[LATE, "first"])
     lab.record("late", gain, metric="starts",
                label="predicted state minus first entry, pucks")  # fmt: skip
@@ -445,9 +448,11 @@ def watched(lab: Lab, fns, limit: float) -> None:
     ):
         score, near = scores_of(fns, first, shift)
         ticks = [alarm_at(one, limit, IN_A_ROW) for one in score]
-        alarms = np.sum(np.array(ticks) >= 0)
-        print(f"  {name:20} about {5 * round(alarms / 5):2} alarms and about "
+        alarms = rounded(np.array(ticks) >= 0)
+        print(f"  {name:20} about {alarms:2} alarms and about "
               f"{rounded(near):2} pucks within 10 mm, of {WATCHED}")  # fmt: skip
+        if name != "usual starts":
+            lab.measured(f"alarms of {WATCHED}, {name}", alarms)
 
 
 def scores_of(fns, start: np.ndarray, shift: np.ndarray):
@@ -491,6 +496,7 @@ def league(lab: Lab, fns) -> None:
     value = "p < 0.001" if p[0] < 0.001 else f"p = {p[0]:.3f}"
     verdict = "different" if different[0] else "no difference is shown"
     print(f"  sign test: {value}, {verdict}")
+    lab.measured("pucks of the regression, of 100", rounded(success[1]))
     ahead = np.sum(success[0]) - np.sum(success[1])
     lab.record("league", ahead, metric="starts",
                label="diffusion policy minus regression, pucks")  # fmt: skip
@@ -502,7 +508,7 @@ def arm(lab: Lab, fns) -> None:
     found = pushing.attempt(fns)
     print(pushing.HEAD.strip("\n"))
     print(pushing.row("one puck", found))
-    lab.record("push", found.place_mm, metric="mm", label="puck from its mark, mm")
+    lab.record("push", found.place_mm, metric="mm", label="puck from home, mm")
     lab.record("seen", found.seen_mm, metric="mm", label="error of the camera, mm")
 
 
