@@ -25,7 +25,7 @@ RING = np.column_stack([np.cos(CIRCLE), np.sin(CIRCLE), 0 * CIRCLE])
 UP = 0.02  # m, the height of the puck; the plans are drawn above it
 MOVED_AT = 20  # ticks
 AWAY = 0.18  # m from home to the puck
-WAYS = ("predicted state", "first row", "row for now")
+WAYS = ("the predicted state", "the first row", "the row for now")
 HOWS = dict(zip(WAYS, ("ahead", "first", "indexed"), strict=True))
 
 
@@ -91,7 +91,7 @@ class Push(ui.Played):
     angle = ui.slider("puck: direction", -3.1, 3.1, 2.3)
     moved = ui.slider("puck moved after 2 s", -80, 80, 60, "mm", 5)
     late = ui.slider("delay", 0, 3, 3, "ticks", 1)
-    way = ui.choice("late plans: use the", WAYS)
+    way = ui.choice("late plans use", WAYS)
     camera_off = ui.slider("camera shifted by", -40, 40, 0, "mm", 5)
     bars = ui.panel.bars(
         ["largest score"], 1.5, "", "novelty of the observations", "both"
