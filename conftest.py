@@ -81,6 +81,35 @@ def pytest_collection_modifyitems(
         items[:] = [one for one in items if one not in left]
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """In CI, note the tests that are skipped: they run when nothing is missing."""
+    file = os.environ.get("ROBO47_SKIPPED")
+    if file and not hasattr(config, "workerinput"):
+        config.pluginmanager.register(Skipped(Path(file)))
+
+
+class Skipped:
+    """Write the tests, and files of tests, that a run skips to a file of arguments."""
+
+    def __init__(self, file: Path) -> None:
+        """Begin with none."""
+        self.file, self.names = file, set[str]()
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Note a test."""
+        if report.skipped:
+            self.names.add(report.nodeid)
+
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        """Note a file that is skipped as a whole."""
+        if report.skipped:
+            self.names.add(report.nodeid)
+
+    def pytest_sessionfinish(self) -> None:
+        """Write the names, one per line."""
+        self.file.write_text("".join(f"{name}\n" for name in sorted(self.names)))
+
+
 def need(available: bool, what: str) -> None:
     """Skip a test for want of something, or fail where CI was to install it."""
     if not available:

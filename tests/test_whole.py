@@ -393,6 +393,19 @@ def test_ci_tests_all_days_wholly_at_night(nightly, asked):
     assert done.stdout.strip() == f"{asked} {nightly}".strip()
 
 
+def test_what_a_run_skips_is_written_as_arguments_of_another_run(tmp_path):
+    ran, test, file = (
+        SimpleNamespace(skipped=skipped, nodeid=name)
+        for skipped, name in [(False, "a.py::ran"), (True, "a.py::b"), (True, "c.py")]
+    )
+    skipped = conftest.Skipped(tmp_path / "skipped")
+    for report in (ran, test, test):
+        skipped.pytest_runtest_logreport(report)
+    skipped.pytest_collectreport(file)
+    skipped.pytest_sessionfinish()
+    assert (tmp_path / "skipped").read_text() == "a.py::b\nc.py\n"
+
+
 def test_what_ci_leaves_to_another_kernel_is_run_there():
     ci = (ROOT / ".ci" / "run").read_text("utf-8")
     (left,) = re.findall(r"^outputs=(\S+)$", ci, re.MULTILINE)

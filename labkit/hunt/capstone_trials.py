@@ -20,7 +20,7 @@ from labkit.lesson.day import Day, days_of
 from labkit.lesson.lab_module import load_lab
 from robo47.errors import Robo47Error
 
-SECONDS = 60  # the longest that an attempt may take
+SECONDS = 60  # of the processor: the longest that an attempt may take
 
 
 class Attempt(NamedTuple):
@@ -82,18 +82,18 @@ def trials(
 
 @contextlib.contextmanager
 def _time_limit() -> Iterator[None]:
-    """Stop an attempt that takes longer than SECONDS."""
+    """Stop an attempt that takes longer than SECONDS, however busy the machine is."""
 
     def stop(number: int, frame: FrameType | None) -> None:
-        raise TimeoutError(f"it takes over {SECONDS} s")
+        raise TimeoutError(f"it takes over {SECONDS} s of the processor's time")
 
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.alarm(SECONDS)
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, SECONDS)
     try:
         yield
     finally:
-        signal.alarm(0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
 
 
 def write_all(day: Day, say: Callable[[str], None]) -> str:
