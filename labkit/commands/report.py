@@ -151,8 +151,8 @@ def tell(report: Report, days: list[Day]) -> None:
     unchecked = [str(day.number) for day in begun if not known[day.number]]
     if len(unchecked) > 1:  # one sentence for all of them
         *some, last = unchecked
-        says = f"days {', '.join(some)} and {last}: Not checked in this version:"
-        print(cli.wrapped(f"{says} make check DAY={some[0]}, and so on.", "  "))
+        which = f"days {', '.join(some)} and {last}: Not checked in this version:"
+        print(cli.wrapped(f"{which} make check DAY={some[0]}, and so on.", "  "))
     for day in begun:
         found = known[day.number]
         done = all(found.get(t.id) == "passed" for t in day.tasks if not t.optional)
