@@ -57,8 +57,8 @@ class TestAnIndex:
             (
                 lambda x, at: float(np.argmin(np.abs(x - at))),
                 "not-an-index",
-                "0; expected an index, a whole number. Only a whole number can index "
-                "an array, so convert the result with int(...).",
+                "0; expected an index. Only a whole number can index an array, so "
+                "convert the result with int(...).",
             ),
             (
                 lambda x, at: x,
@@ -80,8 +80,9 @@ class TestAnIndex:
 
     def test_is_shown_as_one_would_type_it(self):
         verdict = told(self.row(), lambda x, at: int(np.argmax(np.abs(x - at))))
-        mine, right = explained(verdict, "yours"), explained(verdict, "right")
-        assert (mine[0][7:].isdecimal(), right[0][7:].isdecimal()) == (True, True)
+        mine, right = explained(verdict, "returned"), explained(verdict, "expected")
+        values = [one[0].partition(": ")[2] for one in (mine, right)]
+        assert all(value.isdecimal() for value in values)
         assert re.search(r"\) returned \d+; expected \d+\.$", verdict.call)
 
 
@@ -117,7 +118,7 @@ class TestATruthValue:
     def test_is_typed_and_shown_as_true_and_false(self):
         verdict = told(self.row(), lambda x, sure: x > 0.0)
         assert verdict.call.endswith(", True) returned True; expected False.")
-        assert explained(verdict, "right") == ["right: False"]
+        assert explained(verdict, "expected") == ["expected: False"]
 
 
 class TestAWord:
@@ -211,10 +212,14 @@ class TestAPath:
 
     def test_is_shown_in_its_own_length(self):
         verdict = told(self.row(), lambda s, n: np.arange(1, n)[:, None] * s)
-        (mine,), (right,) = explained(verdict, "yours"), explained(verdict, "right")
-        assert len(eval(right[7:])) == len(eval(mine[7:])) + 1
+        (mine,), (right,) = (
+            explained(verdict, "returned"),
+            explained(verdict, "expected"),
+        )
+        values = [eval(one.partition(": ")[2]) for one in (mine, right)]
+        assert len(values[1]) == len(values[0]) + 1
         empty = told(self.row(), lambda s, n: np.zeros((0, 2)))
-        assert explained(empty, "yours") == ["yours: np.zeros((0, 2))"]
+        assert explained(empty, "returned") == ["returned: np.zeros((0, 2))"]
         assert "returned shape (0, 2); expected shape (" in empty.call
 
 
@@ -241,7 +246,7 @@ class TestATuple:
             (
                 lambda i, point, free: (i, (point, not free)),
                 "inverted",
-                "Free: your code swaps True and False",
+                "Your code swaps True and False. Free is wrong in all 5 calls.",
             ),
             (
                 lambda i, point, free: (i, (-point, free)),
@@ -251,13 +256,13 @@ class TestATuple:
             (
                 lambda i, point, free: (float(i), (point, free)),
                 "not-an-index",
-                "The place: your function returns",
+                "Your first result, the place, is 1.0; expected an index",
             ),
             (
                 lambda i, point, free: (i, point, free),
                 "parts",
-                "returns 3 results; expected 2 results: an index, a whole "
-                "number, a tuple of 2.",
+                "returns 3 results; expected 2 results: an index and a tuple of 2 "
+                "results.",
             ),
             (
                 lambda i, point, free: point,
@@ -284,7 +289,7 @@ class TestATuple:
 
         verdict = told(self.row(), function)
         assert ")[1][1] returned " in verdict.call
-        assert len(explained(verdict, "yours")) == 3
+        assert len(explained(verdict, "returned")) == 3
 
     def test_of_two_lists_of_rows_is_two_arrays(self):
         row = row_of(
@@ -320,20 +325,20 @@ class TestNone:
             (
                 lambda p, x: x * p,
                 "none-or-not",
-                "returns an answer for 2 inputs where None is expected (it is out "
-                "of reach)",
+                "Your function returns an answer in 2 of 6 calls; expected None (it "
+                "is out of reach).",
             ),
             (
                 lambda p, x: None if x < 1.5 else x * p,
                 "none-or-not",
-                "Your function returns None for 1 input with an answer",
+                "Your function returns None in 1 of 4 calls; expected an answer.",
             ),
             (
                 lambda p, x: None if x < 0 else -x * p,
                 "all-signs",
                 "Every entry of your result has the wrong sign",
             ),
-            (lambda p, x: None if x < 0 else p + x**3, "off", "off by up to"),
+            (lambda p, x: None if x < 0 else p + x**3, "off", "Largest error: "),
         ],
     )
     def test_is_right_or_wrong(self, function, slug, says):
@@ -344,7 +349,7 @@ class TestNone:
     def test_is_shown_as_none(self):
         verdict = told(self.row(), lambda p, x: x * p)
         assert verdict.call.endswith(" returned an answer; expected None.")
-        assert explained(verdict, "right") == ["right: None"]
+        assert explained(verdict, "expected") == ["expected: None"]
 
 
 def test_a_covariance_of_a_twist_may_have_its_blocks_swapped():

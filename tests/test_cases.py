@@ -49,8 +49,8 @@ def test_right_and_wrong_cases_are_listed():
     # Right too where x is above -1: not in every call of the case.
     some = told(toy(), lambda x: x / 2 if -1 < x < 0 else x)
     assert some == (
-        "The result is correct for positive numbers. Some of the calls with "
-        "negative numbers are wrong."
+        "The result is correct for positive numbers. It is wrong in some calls with "
+        "negative numbers."
     )
 
 
@@ -62,9 +62,10 @@ def test_one_counterexample_among_the_fresh_inputs_and_a_case_is_not_right():
 
 def test_fresh_inputs_are_drawn_only_while_a_case_may_be_right():
     known = []
-    says = told(toy(), lambda x: 3 * x + 1, known)
-    assert says.startswith("The result is wrong in some calls of every case")
+    says = told(toy(), lambda x: x if abs(x) < 1 else 3 * x + 1, known)
+    assert says.startswith("The result is wrong even in some calls with ")
     assert known == []
+    assert told(toy(), lambda x: 3 * x + 1, known) == ""
     told(toy(), lambda x: 3 * x if x < 0 or 5 < x < 5.2 else x, known)
     refuted = len(known)
     told(toy(), lambda x: x, known)
@@ -75,8 +76,8 @@ def test_fresh_inputs_are_drawn_only_while_a_case_may_be_right():
 def test_an_answer_that_is_missing_or_not_finite_is_wrong(bad):
     says = told(toy(), lambda x: x / 2 if x < 0 else (bad if x > 4 else x))
     assert says == (
-        "The result is correct for negative numbers. Some of the calls with "
-        "positive numbers are wrong."
+        "The result is correct for negative numbers. It is wrong in some calls with "
+        "positive numbers."
     )
 
 
@@ -101,6 +102,10 @@ def test_only_is_said_where_every_other_call_is_right():
     row.cases(bands)
     wrong = told(row, lambda x: 99.0 if 3 <= x < 6 else x / 2 if x < 0 else x)
     assert wrong == "The result is wrong only for numbers from 3 to 6."
+    some = told(row, lambda x: 99.0 if 3 <= x < 4 else x / 2 if x < 0 else x)
+    assert some == (
+        "The result is wrong only in some of the calls with numbers from 3 to 6."
+    )
 
 
 def test_adjacent_ranges_with_the_same_verdict_are_one():
@@ -217,20 +222,20 @@ NAMES = {
 OF_THE_REVIEW = [
     (11, only_the_fastest,
      "The result is correct for links that touch or overlap and motions of length 0. "
-     "It is wrong for steps in which several joints move. Some of the calls "
-     "with steps in which one joint moves and some of those with steps that reach the "
-     "end of the motion are wrong."),
-    (11, further, "Some of the calls with steps that end before"),
+     "It is wrong for steps in which several joints move. It is wrong in some calls "
+     "with steps in which one joint moves and in some calls with steps that reach the "
+     "end of the motion."),
+    (11, further, "It is wrong in some calls with steps that end before"),
     (11, first_reach, "The result is correct for steps with equal radii"),
     (11, steep_only,
-     "The result is correct for velocities that are allowed and gradients of 0. Some "
-     "of the calls with velocities that are too fast, at a positive distance; and "
-     "some of those with velocities that are too fast, at a distance of 0 or less are "
-     "wrong."),
+     "The result is correct for velocities that are allowed and gradients of 0. It is "
+     "wrong in some calls with velocities that are too fast, at a positive distance; "
+     "and in some calls with velocities that are too fast, at a distance of 0 or "
+     "less."),
     (11, shallow, "points beyond three faces. It is wrong for points in the box."),
-    (12, long_edges, "Some of the calls with edges that "),
-    (12, coarse, "Some of the calls with edges that start"),
-    (12, capped, "The result is wrong in some calls of every case"),
+    (12, long_edges, "It is wrong in some calls with edges that "),
+    (12, coarse, "It is wrong in some calls with edges that start"),
+    (12, capped, "The result is wrong even in some calls with paths on which "),
 ]  # fmt: skip
 
 

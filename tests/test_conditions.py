@@ -71,7 +71,7 @@ def printed(row, function):
     told = {
         RIGHT: "is correct for ",
         WRONG: "It is wrong for ",
-        "only": "wrong only for",
+        "only": "wrong only ",
     }
     for status, word in told.items():
         _, _, rest = says.partition(word)

@@ -30,7 +30,7 @@ def told(ask, value):
         (np.eye(3), "shape", "(3, 3)"),
         (np.array("T"), "not-numbers", "real numbers"),
         (np.eye(4) * 1j, "not-numbers", "complex"),
-        ((np.eye(3), np.zeros(3)), "shape", "(3, 3), (3,)"),
+        ((np.eye(3), np.zeros(3)), "shape", "a tuple of 2 results; expected"),
         (np.full((4, 4), np.nan), "not-finite", "NaN"),
         (np.zeros((4, 4)), "all-zeros", "never fill it"),
         (np.eye(4), "always-the-identity", "identity"),
@@ -51,7 +51,7 @@ def test_a_days_own_diagnosis_may_stop_at_a_singular_answer():
     answers[:, 0] = answers[:, :, 0] = 0.0
     verdict = judged_replies(ask, replies_of(answers))
     assert (verdict.status, verdict.mistake) == ("wrong", "off")
-    assert "off by" in verdict.message
+    assert "Largest error: " in verdict.message
 
 
 def test_an_exception_is_told_with_its_line_and_how_often_it_happens():
@@ -74,7 +74,7 @@ def test_an_answer_that_changes_when_asked_again_is_told_so():
     verdict = judged_replies(MAKE_T, replies)
     assert verdict.mistake == "kept-between-calls"
     every = len(T) + len(round_of(MAKE_T).fresh)
-    assert f"For {len(T)} of {every} inputs" in verdict.message
+    assert f"In {len(T)} of {every} calls, the same" in verdict.message
 
 
 def test_an_error_of_the_second_time_alone_is_state_too():
@@ -131,19 +131,19 @@ def test_a_tuples_parts_are_judged_apart_and_named():
     assert judged(ask, (x, twice)).status == "passed"
     verdict = judged(ask, (x, -twice))
     assert verdict.mistake == "all-signs"
-    assert verdict.message.startswith("The angle: ")
+    assert verdict.message.startswith("Every entry of the angle has the wrong sign.")
     assert "expected 2 results" in told(ask, np.array(1.0)).message
 
 
 @pytest.mark.parametrize(
     ("second", "says"),
     [
-        (np.zeros(2), "The angle: your function returns an array of shape (2,)"),
-        ("left", "The angle: your function returns 'left'"),
-        (None, "The angle: your function returns None for 6 inputs"),
+        (np.zeros(2), "Your second result, the angle, is an array of shape (2,);"),
+        ("left", "Your second result, the angle, is 'left'; expected one number."),
+        (None, "For the angle, your function returns None in all 6 calls;"),
     ],
 )
-def test_a_sentence_goes_on_in_small_letters_after_its_results_name(second, says):
+def test_a_sentence_on_one_of_several_results_has_its_name(second, says):
     ask = Ask(
         lambda rng: [(x,) for x in rng.uniform(1, 2, 6)],
         (Scalar(called="the length"), Scalar(called="the angle", none="no angle")),
@@ -162,7 +162,7 @@ def test_accepting_needs_no_truth_and_says_why_not():
     verdict = told_many(ask, 0.0)
     assert (verdict.status, verdict.mistake) == ("wrong", "not-accepted")
     assert "It is not larger." in verdict.message
-    assert "8 of 8 inputs" in verdict.message
+    assert "This happens in all 8 calls." in verdict.message
 
 
 def told_many(ask, answer):

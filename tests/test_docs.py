@@ -291,6 +291,12 @@ def test_each_day_of_the_readme_is_a_captioned_picture():
         assert day.result, f"day {day.number}: see = 'method: what the lab shows'"
 
 
+def test_a_line_of_a_weeks_list_does_not_repeat_the_method_of_the_title():
+    listed = docs.days_list("w3-learning", ROOT / "w3-learning")
+    assert "](docs/day15-lab.md)**: a network that" in listed
+    assert "](docs/day18-lab.md)**: DAgger: from" in listed  # not in its title
+
+
 GUIDES = [day.folder / day.guide for day in all_days()]
 
 

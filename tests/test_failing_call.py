@@ -58,14 +58,15 @@ def test_digits_suffice_to_tell_the_two_apart():
 def test_a_call_that_stops_is_named_too():
     asked = asked_with(np.sin)
     asked.main[1].reply = Reply(kind="KeyError", error="1.0")
-    assert failing_call(asked).call == "f(1) stops."
+    assert failing_call(asked).call == "f(1) stopped with an error."
     assert failing_call(asked_with(np.sin)) == Failing()
 
 
 def test_what_was_measured_never_says_that_all_is_right_where_something_is_wrong():
     verdict = judge(asked_with(lambda x: np.sin(x) + (x == 3.0)))
     assert (verdict.status, verdict.mistake) == ("wrong", "some-inputs")
-    counted = [line.split()[4:7] for line in verdict.measured if "are correct" in line]
+    lines = [line for line in verdict.measured if line.startswith("correct calls: ")]
+    counted = [line.split()[2:5] for line in lines]
     assert any(int(right) < int(of) for right, _, of in counted)
     assert verdict.call == "f(3) returned 1.14112; expected 0.14112."
 

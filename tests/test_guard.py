@@ -58,7 +58,7 @@ def test_a_hook_that_stops_leaves_the_general_finding(student, hook):
     ask = asking(**{hook: stops})
     found = judged(ask, right(ask)[0] + np.array([0.3, -0.1, 0.7, 0.2, 0.9, 0.4]))
     assert found.status == "wrong"
-    assert "off by up to 0.9" in found.message
+    assert "Largest error: 0.9." in found.message
     assert "OverflowError in tests/test_guard.py, line" in found.message
     assert found.message.endswith(REPORT)
     assert found.call

@@ -7,7 +7,7 @@ import pytest
 from judged import alike, moved, redone
 from toyrows import row_of, told
 
-from labkit.judge import Finding, Matrix, Scalar, Vector
+from labkit.judge import Finding, Matrix, Scalar, Slip, Vector
 from labkit.judge.answers import capitalised
 from labkit.judge.draw import Edges
 
@@ -43,10 +43,8 @@ class TestAMistakeThatStopsOrReshapes:
         verdict = told(self.row(), function)
         assert verdict.mistake == "transposed"
         assert "stops with an error in 2 of 5 calls." in verdict.message
-        assert (
-            "multiplied`. In the other 3 calls, all results are wrong."
-            in verdict.message
-        )
+        also = "The result is also wrong in all 3 other calls."
+        assert f"multiplied`. {also}" in verdict.message
         assert "W is (k, m)" in verdict.message
 
     def test_is_named_where_it_is_right_at_all_others(self):
@@ -93,7 +91,7 @@ class TestAMistakeThatStopsOrReshapes:
         verdict = told(row, lambda x: row.truth(x) + np.array([0.0, 1.0]))
         assert "infinity" not in verdict.message
         verdict = told(row, lambda x: np.array([np.inf, x]))
-        assert "Your function returns NaN or infinity for 2 of 3" in verdict.message
+        assert "Your function returns infinity in 2 of 3 calls." in verdict.message
 
     def test_is_taken_by_the_catalogues_tests(self):
         ask = self.row().ask
@@ -169,10 +167,11 @@ class TestEntriesInAnotherOrder:
 @pytest.mark.parametrize(
     ("stops", "wrong", "says"),
     [
-        (4, {1, 2}, "In the other 2 calls, all results are wrong."),
-        (3, {2, 3}, "In the other 3 calls, 2 results are wrong."),
-        (3, {3}, "In the other 3 calls, 1 result is wrong."),
-        (5, {1}, "In the other call, the result is wrong."),
+        (4, {1, 2}, "in both other calls. Largest error: 1."),
+        (3, {1, 2, 3}, "in all 3 other calls. Largest error: 1."),
+        (3, {2, 3}, "in 2 of the other 3 calls. Largest error: 1."),
+        (3, {3}, "in 1 of the other 3 calls. Largest error: 1."),
+        (5, {1}, "in the other call. The result is 1.5 times the correct value."),
     ],
 )
 def test_the_calls_without_an_error_are_counted_by_themselves(stops, wrong, says):
@@ -186,7 +185,56 @@ def test_the_calls_without_an_error_are_counted_by_themselves(stops, wrong, says
 
     message = told(row, function).message
     assert message.startswith("Your function stops with an error in")
-    assert f"`ZeroDivisionError`. {says}" in message
+    assert message.endswith(f"`ZeroDivisionError`. The result is also wrong {says}")
+
+
+def test_nothing_is_said_of_every_call_where_some_calls_stop():
+    inputs = [(float(x),) for x in range(1, 7)]
+    row = row_of(Scalar(), lambda x: 2.0 * x, lambda rng: inputs)
+
+    def function(x):
+        if x > 4:
+            raise ZeroDivisionError
+        return 3.0 * x
+
+    message = told(row, function).message
+    assert message.endswith(
+        "The result is also wrong in all 4 other calls. The result is 1.5 times the "
+        "correct value in these calls."
+    )
+
+
+@pytest.mark.parametrize(
+    ("right", "mine", "says"),
+    [
+        (np.inf, np.nan, "returns NaN in 2 of 4 calls; expected infinity."),
+        (np.inf, -np.inf, "returns -infinity in 2 of 4 calls; expected infinity."),
+        (-np.inf, np.nan, "returns NaN in 2 of 4 calls; expected -infinity."),
+        (1.0, -np.inf, "returns -infinity in 2 of 4 calls."),
+    ],
+)
+def test_an_infinity_that_is_right_is_said_to_be_expected(right, mine, says):
+    inputs = [(float(x),) for x in (-1, 2, -3, 4)]
+    row = row_of(Scalar(), lambda x: right if x < 0 else x, lambda rng: inputs)
+    verdict = told(row, lambda x: mine if x < 0 else x)
+    assert verdict.message.startswith(f"Your function {says}")
+
+
+def test_the_infinite_result_of_several_is_named():
+    kind = (Scalar(called="the rank"), Scalar(called="the limit"))
+    inputs = [(float(x),) for x in (-1, 2, -3, 4)]
+    row = row_of(kind, lambda x: (x, np.inf if x < 0 else x), lambda rng: inputs)
+    message = told(row, lambda x: (x, np.nan if x < 0 else x)).message
+    assert message.startswith(
+        "Your function returns NaN for the limit in 2 of 4 calls; expected infinity."
+    )
+
+
+def test_a_number_where_an_infinity_is_expected_is_off_by_no_number():
+    inputs = [(float(x),) for x in (-1, 2, -3, 4)]
+    row = row_of(Scalar(), lambda x: np.inf if x < 0 else x, lambda rng: inputs)
+    message = told(row, lambda x: x * x + 3.0 if x < 0 else x).message
+    assert "The result is wrong in 2 of 4 calls. Largest error: infinite." in message
 
 
 class TestATolerance:
@@ -204,7 +252,7 @@ class TestATolerance:
 
     def test_is_told_where_it_is_measured(self):
         verdict = told(self.row(rtol=0.005), lambda x: 2.1 * x)
-        assert "beyond 0.005 of the largest" in verdict.measured[0]
+        assert "+ 0.005 of the largest entry" in verdict.measured[0]
 
 
 def test_edges_of_a_whole_number_are_the_first_and_the_last():
@@ -236,3 +284,19 @@ def test_a_truth_value_and_an_index_are_no_edge_that_moves():
 )
 def test_a_sentence_that_begins_with_a_symbol_keeps_it(clause, sentence):
     assert capitalised(clause) == sentence
+
+
+def test_an_exception_with_words_of_its_own_is_counted_where_other_calls_are_wrong():
+    slip = Slip("ZeroDivisionError", "", "at-0", "Your code divides by 0.")
+    inputs = [(float(x),) for x in range(1, 7)]
+    row = row_of(Scalar(), lambda x: 2.0 * x, lambda rng: inputs, slips=(slip,))
+
+    def function(x):
+        if x > 4:
+            raise ZeroDivisionError
+        return x * x + 1.0
+
+    assert told(row, function).message.startswith(
+        "Your code divides by 0. Your function stops with an error in 2 of 6 calls. "
+        "The result is also wrong in 3 of the other 4 calls. Largest error: 9."
+    )

@@ -230,7 +230,11 @@ def test_a_path_of_any_length_is_accepted_by_a_property():
     assert straight.status == "passed"
     back = verdict(lambda i, a, b: np.linspace(b, a, 3 + i))
     assert back.mistake == "not-accepted"
-    assert "This happens for 6 of 6 inputs" in back.message
+    assert "This happens in all 6 calls." in back.message
+    assert back.call.startswith("One failing call: ")
+    once = verdict(lambda i, a, b: np.linspace(*([b, a] if i == 2 else [a, b]), 3 + i))
+    assert "This happens in 1 of 6 calls." in once.message
+    assert once.call.startswith("The failing call: ")
     flat = verdict(lambda i, a, b: np.concatenate([a, b]))
     assert "a row of 2 numbers per waypoint" in flat.message
 

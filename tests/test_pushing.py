@@ -38,17 +38,17 @@ def quick(monkeypatch):
         monkeypatch.setattr(module, name, anew)
 
 
-def test_a_puck_is_pushed_home_again_after_somebody_moved_it(right):
+def test_a_puck_is_pushed_home_again_after_it_was_moved(right):
     assert not right.failed
     assert right.place_mm < task.HOME_MM
     assert right.seen_mm < 3.5
     assert right.lag_mm < 10.0
     assert right.new < right.limit
     begun = dict(right.phases)
-    assert list(begun) == ["approach", "push", "moved by hand", "push again", "home"]
+    assert list(begun) == ["approach", "push", "moved aside", "push again", "home"]
     assert abs(right.time - (begun["home"] - begun["push"])) < 1e-9
     puck = [right.qpos[np.searchsorted(right.t, begun[name]), 9:]
-            for name in ("moved by hand", "push again")]  # fmt: skip
+            for name in ("moved aside", "push again")]  # fmt: skip
     way = puck[1] - puck[0]
     assert abs(np.linalg.norm(way) - guard.MOVED) < 0.005
     assert abs(way @ puck[0]) / np.linalg.norm(puck[0]) < 0.005  # at a right angle
@@ -264,7 +264,7 @@ def test_random_pucks_come_home_and_stand_where_they_may():
 
 def test_a_film_of_it_has_the_ball_at_the_tool_and_all_that_stands_around(right):
     film = pushing.film(right)
-    assert film.moments == ("push", "moved by hand", "push again", "home")
+    assert film.moments == ("push", "moved aside", "push again", "home")
     assert film.qpos.shape[1] == scene.tray(task.PUCK).nq
     last = film.qpos[-1]
     kinds = [block.kind for block in film.blocks(last)]

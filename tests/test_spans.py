@@ -100,9 +100,12 @@ def test_a_value_of_an_argument_is_put_into_the_last_usual_call():
 
 @pytest.mark.parametrize(
     ("least", "how"),
-    [(0.9, "in 2 of 5 calls, by up to 9"), (1.5, "in 1 of 5 calls, by 9")],
+    [
+        (0.9, "in 2 of 5 calls. Largest error: 9"),
+        (1.5, "in 1 of 5 calls. Largest error: 9"),
+    ],
 )
-def test_of_one_wrong_call_the_size_is_its_own(least, how):
+def test_the_wrong_calls_are_counted_before_the_largest_error(least, how):
     made = row_of(Scalar(unit="m"), lambda x: x, lambda rng: [(x,) for x in CALLS])
     off = told(made, lambda x: x + x * x if x > least else x)
     assert off.message.startswith(f"The result is wrong {how} m.")

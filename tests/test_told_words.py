@@ -5,11 +5,20 @@ import numpy as np
 import pytest
 from toyrows import row_of, told
 
-from labkit.judge import Jacobian, Mask, Matrix, Scalar, Twist, Vector
+from labkit.judge import (
+    Count,
+    Covariance,
+    Jacobian,
+    Mask,
+    Matrix,
+    Scalar,
+    Twist,
+    Vector,
+)
 from labkit.judge.answers import is_or_are, of_result
 from labkit.judge.matrix_kinds import part_off
-from labkit.judge.mistake import both_told
-from labkit.judge.results import expected
+from labkit.judge.mistake import Finding, both_told
+from labkit.judge.results import as_sent, expected, flat_kinds, read
 
 
 def test_what_a_wrong_shape_comes_from_is_a_sentence():
@@ -20,14 +29,21 @@ def test_what_a_wrong_shape_comes_from_is_a_sentence():
 def test_results_that_are_alike_are_described_once():
     seven, one = Vector((7,)), Scalar()
     assert expected((seven, seven)) == "expected 2 results, each a vector of 7 numbers"
-    both = "expected 2 results: a vector of 7 numbers, one number"
+    both = "expected 2 results: a vector of 7 numbers and one number"
     assert expected((seven, one)) == both
+    names = MEAN, Vector((2,), called="the mode"), Scalar(called="the loss")
+    assert expected(names[:2]) == (
+        "expected 2 results (the mean and the mode), each a vector of 2 numbers"
+    )
+    assert expected(names[1:]) == (
+        "expected 2 results: the mode (a vector of 2 numbers) and the loss (one number)"
+    )
 
 
 def test_a_half_that_is_correct_is_yours():
     T = np.array([[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [2.0, 1.0, 0.0, 5.0, 1.0, 4.0]])
     S = T + np.array([0.0, 0.0, 0.0, 0.5, -0.25, 0.0])
-    says = "Your omega is correct, but your v is off by up to 0.5."
+    says = "Your omega is correct, but your v is not. Largest error: 0.5."
     assert Twist().what_is_wrong(S, T).message == says
 
 
@@ -55,8 +71,11 @@ def test_entries_that_are_wrong_are_in_rows_of_columns(rows, columns, where):
 
 
 def test_a_verb_agrees_with_its_result():
-    assert of_result("The result is off by up to 2.", "the levels") == (
-        "The levels are off by up to 2."
+    assert of_result("The result is wrong in all 2 calls.", "the levels") == (
+        "The levels are wrong in all 2 calls."
+    )
+    assert of_result("Largest error: 2.", "the levels") == (
+        "The levels are wrong. Largest error: 2."
     )
     singular = ("the loss", "the NIS", "the axis", "the vector of means", "v", "m")
     assert {is_or_are([name]) for name in singular} == {"is"}
@@ -80,11 +99,67 @@ def test_truth_values_are_counted_in_calls_or_entries():
     )
 
 
-def test_a_result_that_is_larger_by_orders_of_magnitude_diverges():
+@pytest.mark.parametrize(
+    ("says", "named"),
+    [
+        ("Every entry of the result is 2 times the correct value.",
+         "Every entry of the loss is 2 times the correct value."),
+        ("Every entry of your result has the wrong sign. The result is wrong.",
+         "Every entry of the loss has the wrong sign. The loss is wrong."),
+        ("Your matrix is transposed.", "For the loss, your matrix is transposed."),
+        ("The results are correct.", "For the loss, the results are correct."),
+    ],
+)  # fmt: skip
+def test_a_result_of_several_has_its_name_in_the_sentence(says, named):
+    assert of_result(says, "the loss") == named
+
+
+MEAN, COVARIANCE = Vector((2,), called="the mean"), Covariance((2, 2), called="P")
+
+
+@pytest.mark.parametrize(
+    ("kind", "answer", "says"),
+    [
+        ((MEAN, COVARIANCE), (np.zeros(2), np.zeros(2)),
+         "Your second result, P, is an array of shape (2,) in 1 of 2 calls; expected a "
+         "2x2 matrix."),
+        ((MEAN, COVARIANCE), (None, np.eye(2)),
+         "Your first result, the mean, is None; expected a vector of 2 numbers."),
+        ((MEAN, COVARIANCE), (1j * np.zeros(2), np.eye(2)),
+         "Your first result, the mean, is an array of complex numbers; expected real "
+         "numbers (a vector of 2 numbers)."),
+        ((Count(), (Mask((2,)), MEAN)), (1, (np.zeros(2, bool), [[1, 2], [3]])),
+         "Your result [1][1], the mean, is a list whose parts have the shapes (2,) and "
+         "(1,); expected a vector of 2 numbers."),
+        ((MEAN, Mask((2,))), (np.zeros(2), np.zeros(3, bool)),
+         "Your second result is an array of shape (3,) in 1 of 2 calls; expected True "
+         "or False, in shape (2,)."),
+        (MEAN, np.zeros(3),
+         "Your function returns an array of shape (3,) in 1 of 2 calls; expected a "
+         "vector of 2 numbers."),
+    ],
+)  # fmt: skip
+def test_a_shape_that_is_wrong_is_that_of_one_result(kind, answer, says):
+    right = as_sent(kind, [np.zeros([*one.shape]) for one in flat_kinds(kind)])
+    found = read(kind, [right, answer])
+    assert isinstance(found, Finding)
+    assert found.message == says
+
+
+def test_a_size_that_a_question_decides_is_that_of_one_result():
+    kinds = Scalar(called="the loss"), Matrix((None, 2), called="the gradient")
+    inputs = [(np.ones((n, 2)),) for n in (1, 2, 3)]
+    row = row_of(kinds, lambda x: (x.sum(), 3.0 * x), lambda rng: inputs)
+    verdict = told(row, lambda x: (x.sum(), 3.0 * x[:2] + 1.0))
+    says = "Your second result, the gradient, is an array of the wrong shape in 1 of"
+    assert verdict.message.startswith(f"{says} 3 calls.")
+
+
+def test_a_result_that_is_larger_by_orders_of_magnitude_is_told_by_the_factor():
     T = np.array([[1.0, 2.0], [3.0, 4.0]])
     kind = Vector((2,), "m")
     assert kind.largest_error(T * [1.0, 3.0e13], T) == (
-        "The result is over 1e13 times as large as expected, so it diverges."
+        "The result is over 1e13 times as large as expected."
     )
     assert kind.largest_error(T * [1.0, 1.0e6], T).startswith("Largest error: ")
 

@@ -116,7 +116,9 @@ def days_list(wanted: str, folder: Path) -> str:
             unwritten.pop(day.number, None)
             guide = _between(folder, day.folder / day.guide)
             cards += _card(day, guide, folder, day.method if alone else day.see)
-            lines.append(f"- **[Day {day.number}: {day.title}]({guide})**: {day.see}")
+            lines.append(
+                f"- **[Day {day.number}: {day.title}]({guide})**: {_says(day)}"
+            )
         soon += [f"Day {n}, {title}" for n, title in sorted(unwritten.items())]
         if cards:
             parts += [*([] if alone else [f"**{week.heading}**"]), _grid(cards)]
@@ -124,6 +126,12 @@ def days_list(wanted: str, folder: Path) -> str:
             parts.append("\n".join(lines))
     parts += [f"- Not written yet: {'; '.join(soon)}"] if soon else []
     return "\n\n".join(parts) + "\n"
+
+
+def _says(day: Day) -> str:
+    """Return what a day shows, without its method if the title begins with it."""
+    named = day.title.lower().startswith(day.method.lower())
+    return day.result if named else day.see
 
 
 def _between(folder: Path, path: Path) -> str:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from robo47.checks import Array, pose_flaw, rotation_flaw
 
+ERROR = "Largest error"  # with this the sentence on how far answers are off begins
 # What begins with the symbol A, and not with the article.
 OF_A_SYMBOL = ("a is ", "a has ", "a and ", "a should ", "a = ")
 Parts = tuple[Array, ...]  # of answers: per result that the function returns, (n, ...)
@@ -326,18 +327,33 @@ def say_number(x: float) -> str:
 
 
 def of_result(says: str, called: str) -> str:
-    """Return a sentence on a result, with its name where there are several.
+    """Return sentences on a result, with its name where there are several.
 
     Args:
-        says: a sentence; some begin with "The result is".
+        says: sentences; some are on "the result" or "your result".
         called: what the result is called, "the torque"; "" where it is the only one.
     """
     if not called:
         return says
-    name = capitalised(called)
-    if says.startswith("The result is "):
-        return f"{name} {is_or_are([called])} {says.removeprefix('The result is ')}"
-    return f"{name}: {as_clause(says).replace('of the result', f'of {called}', 1)}"
+    verb = is_or_are([called])
+    if says.startswith(ERROR):
+        return f"{capitalised(called)} {verb} wrong. {says}"
+
+    def name(found: re.Match[str]) -> str:
+        its = f"{called} {verb}" if found[1] else called
+        return capitalised(its) if found[0][0].isupper() else its
+
+    named = re.sub(r"\b(?:[Tt]he|[Yy]our) result( is)?\b", name, says)
+    return f"For {called}, {as_clause(says)}" if named == says else named
+
+
+def say_error(off: str) -> str:
+    """Return the sentence on the largest error, by how far off answers are in words.
+
+    Every message has this one; a pose has two errors, of its two units.
+    """
+    error = ERROR.replace("error", "errors") if " and " in off else ERROR
+    return f"{error}: {off}."
 
 
 def say_factor(factor: float) -> str:
@@ -370,11 +386,21 @@ def is_or_are(names: Sequence[str]) -> str:
     return "is" if one and not plural else "are"
 
 
-def in_calls(n: int, of: int) -> str:
-    """Return in how many calls something happens: "in 2 of 6 calls"."""
+def in_calls(n: int, of: int, other: bool = False) -> str:
+    """Return in how many calls something happens: "in 2 of 6 calls".
+
+    Args:
+        n: in so many.
+        of: out of so many.
+        other: whether something else was said of calls that are not among these.
+    """
     if n < of:
-        return f"in {n} of {of} calls"
-    return f"in all {of} calls" if of > 1 else "in the only call"
+        return f"in {n} of {'the other ' * other}{of} calls"
+    if of == 1:
+        return "in the other call" if other else "in the only call"
+    if not other:
+        return f"in all {of} calls"
+    return "in both other calls" if of == 2 else f"in all {of} other calls"
 
 
 def as_clause(sentence: str) -> str:

@@ -16,7 +16,7 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Question, Reply
 from labkit.judge import valid
-from labkit.judge.answers import capitalised, listed
+from labkit.judge.answers import listed
 from labkit.judge.ask import Ask, Asked, as_plain, right_answers
 from labkit.judge.crossed import crossed
 from labkit.judge.draw import Draw
@@ -187,23 +187,16 @@ def sentence(cases: Cases, old: Answered, new: Answered) -> tuple[int, str] | No
     if len(right) > LISTED and len(wrong + mixed) == 1:
         (one,) = wrong + mixed
         if others[one].all(RIGHT) and tallies[one].enough:
-            how = "in some calls, all of them with" if mixed else "only for"
-            return left, f"The result is wrong {how} {one}."
+            how = "in some of the calls with" if mixed else "for"
+            return left, f"The result is wrong only {how} {one}."
+    some = [f"in some calls with {one}" for one in merged(mixed)[:LISTED]]
     lists = (
-        ("The result is correct for", right),
-        ("It is wrong for", wrong),
+        ("The result is correct for", merged(right)[:LISTED]),
+        ("It is wrong for", merged(wrong)[:LISTED]),
+        ("It is wrong", some),
     )
-    parts = [f"{how} {_listed(merged(some)[:LISTED])}." for how, some in lists if some]
-    return left, " ".join([*parts, *_wrong_in_some(merged(mixed)[:LISTED])])
-
-
-def _wrong_in_some(phrases: Sequence[str]) -> Iterator[str]:
-    """Yield a sentence on cases of which some calls are wrong."""
-    if phrases:
-        first, *others = phrases
-        some = [f"some of the calls with {first}"]
-        some += [f"some of those with {one}" for one in others]
-        yield f"{capitalised(_listed(some))} are wrong."
+    parts = [f"{how} {_listed(phrases)}." for how, phrases in lists if phrases]
+    return left, " ".join(parts)
 
 
 def _listed(phrases: Sequence[str]) -> str:
@@ -214,12 +207,17 @@ def _listed(phrases: Sequence[str]) -> str:
 
 
 def in_all_cases(cases: Cases, old: Answered, new: Answered) -> str:
-    """Return that no case is right, where some call of each is wrong."""
+    """Return that no case is right, where some call of each is wrong.
+
+    Where every call that was asked is wrong, that was said before.
+    """
+    if all(told == WRONG for _, told in old):
+        return ""
     wrong = [call for call, told in (*old, *new) if told == WRONG]
     if not all(any(of(call) for call in wrong) for of in cases.values()):
         return ""
     first = next(iter(cases))
-    return f"The result is wrong in some calls of every case, even with {first}."
+    return f"The result is wrong even in some calls with {first}."
 
 
 def _of(some: Answered, holds: Callable[[Call], bool], of: bool) -> list[str]:

@@ -12,6 +12,7 @@ from labkit.judge.answers import (
     Several,
     difference,
     gap,
+    in_calls,
     worst_part,
 )
 from labkit.judge.ask import Ask, Asked, HeldOut, of_complex, right_answers
@@ -56,10 +57,12 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
         found = _broken(some, names) or _misfit(asked, some, names)
         if found := found or _wrong(asked, some, held, names):
             return found
-    for one, _ in not_accepted(asked):
+    failing = [one for one, _ in not_accepted(asked)]
+    for one in failing[:1]:
         assert one.reply
-        yours = (f"yours: {shown(one.reply.value)}",)
-        says = f"One failing call: {typed(one.question, names)}."
+        yours = (f"returned: {shown(one.reply.value)}",)
+        which = "One" if len(failing) > 1 else "The"
+        says = f"{which} failing call: {typed(one.question, names)}."
         whole = _given(one.question, names) + yours
         return Failing(says, whole, None, Example(one.question, one.reply.value))
     return Failing()
@@ -68,7 +71,7 @@ def failing_call(asked: Asked, names: Sequence[str] = ()) -> Failing:
 def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | None:
     for one in exchanges:
         if one.reply and (one.reply.kind or one.reply.value is None):
-            what = "stops" if one.reply.kind else "returns nothing"
+            what = "stopped with an error" if one.reply.kind else "returned None"
             says = f"{typed(one.question, names)} {what}."
             whole = _given(one.question, names)
             return Failing(says, whole, None, Example(one.question))
@@ -84,7 +87,7 @@ def _misfit(
         if isinstance(found, Finding) and found.slug == "shape" and one.reply:
             place, shape = _misfitting(asked.ask, one.reply.value)
             call = typed(one.question, names, LONG)
-            says = f"{call}{place} returned shape {shape}."
+            says = f"{call}{place} returned {shape}."
             whole = _given(one.question, names)
             return Failing(says, whole, None, Example(one.question))
     return None
@@ -102,9 +105,9 @@ def _misfitting(ask: Ask, value: Any) -> tuple[str, str]:
 
 def _shape(value: Any) -> str:
     try:
-        return str(np.shape(value))
-    except ValueError:  # parts of different shapes
-        return "that is no array"
+        return f"shape {np.shape(value)}" if np.shape(value) else "a single number"
+    except ValueError:
+        return "parts of different shapes"
 
 
 def _wrong(
@@ -144,9 +147,9 @@ def _wrong(
     whole = [*_given(one.question, names)]
     mine = split(ask.kind, one.reply.value)
     assert not isinstance(mine, Finding)
-    whole += [f"yours: {shown(value)}" for value in mine]
+    whole += [f"returned: {shown(value)}" for value in mine]
     pairs = zip(ask.kinds, right, strict=True)
-    whole += [f"right: {shown(kind.sent(values[0]))}" for kind, values in pairs]
+    whole += [f"expected: {shown(kind.sent(values[0]))}" for kind, values in pairs]
     compared = _compared(ask, part, given[part][0], right[part][0])
     example = Example(one.question, one.reply.value, tuple(x[0] for x in right))
     return Failing(f"{says} {entries}.", tuple(whole), compared, example)
@@ -232,15 +235,17 @@ def for_fresh(asked: Asked, main: Parts, S: Parts | Finding) -> Finding:
     That answers were looked up is said only where all are wrong, and each is one that
     another input has got.
     """
-    right = "The result is correct for the inputs that every check uses, but not for"
+    right = "The result is correct in the calls that every check makes, but"
     if isinstance(S, Finding):
-        return Finding("some-inputs", f"{right} new random inputs. {S.message}")
+        says = f"{right} not in calls with new random inputs. {S.message}"
+        return Finding("some-inputs", says)
     S = taken(asked.ask, asked.fresh, S)
     T = right_answers(asked.ask, asked.fresh)
     wrong = asked.ask.gaps(S, T) > asked.ask.near
-    says = f"{right} {int(wrong.sum())} of {len(wrong)} new random inputs."
+    often = in_calls(int(wrong.sum()), len(wrong))
+    says = f"{right} it is wrong {often} with new random inputs."
     if wrong.all() and _only_known(main, S):
-        return Finding("looked-up", f"{says} The answers do not depend on the inputs.")
+        return Finding("looked-up", f"{says} The results do not depend on the inputs.")
     some = "Do some inputs take another branch of your function?"
     return Finding("some-inputs", says if wrong.all() else f"{says} {some}")
 

@@ -152,7 +152,7 @@ def evidence(exact: bool) -> str:
     """Return what a hypothesis does, after what it is: "its transpose ..."."""
     if exact:
         return "gives the same output as your code"
-    return "explains at least 99 % of the difference in every call"
+    return "gives at least 99 % of your error in every call"
 
 
 def _within(h: Array, s: Array, limit: float, scale: Any) -> bool:

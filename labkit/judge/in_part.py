@@ -154,11 +154,10 @@ def in_some_calls(m: Matcher) -> Finding | None:
         return None
     n, one = most
     others = len(wrong) - n
-    rest = "This mistake does not explain the other "
-    rest += "one" if others == 1 else str(others)
+    rest = "other wrong call" if others == 1 else f"other {others} wrong calls"
     says = (
-        f"One mistake explains {n} of your {len(wrong)} wrong answers: "
-        f"{as_sentence(one.says)} {rest}."
+        f"One mistake explains the result in {n} of the {len(wrong)} wrong calls: "
+        f"{as_sentence(one.says)} This mistake does not explain the {rest}."
     )
     return Finding(f"{one.slug}+other", says)
 

@@ -7,10 +7,8 @@ from itertools import compress
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from labkit.base.exchange import Exchange
-from labkit.base.text import count
 from labkit.judge import (
     near_miss,
     odd_answers,
@@ -21,6 +19,7 @@ from labkit.judge import (
     valid,
 )
 from labkit.judge.answers import (
+    ERROR,
     Parts,
     as_one,
     capitalised,
@@ -30,6 +29,7 @@ from labkit.judge.answers import (
     listed,
     of_result,
     plain,
+    say_error,
     worst_part,
 )
 from labkit.judge.ask import (
@@ -115,7 +115,7 @@ def _by_how_much(gap: Array, tolerance: float) -> Finding:
     right = f"The result is wrong {in_calls(wrong, len(gap))}."
     if not np.isfinite(worst := gap.max()):
         return Finding("off", right)
-    return Finding("off", f"{right} The largest error is {worst:.2g}.")
+    return Finding("off", f"{right} {say_error(f'{worst:.2g}')}")
 
 
 def _judge(asked: Asked, source: str, names: Sequence[str]) -> Verdict:
@@ -212,10 +212,9 @@ def _beside(found: Finding, asked: Asked, names: Sequence[str]) -> Finding:
     if named is not found:
         return named
     rest = replace(asked, main=good, probes=[])
-    if sizes := replies_read.of_another_size(rest):
+    if sizes := replies_read.of_another_size(rest, other=True):
         other = _of_another_size(rest, S, names, sizes)
-        also = f"In other calls, the result is wrong. {other.message}"
-        return Finding(found.slug, f"{found.message} {also}")
+        return Finding(found.slug, f"{found.message} {other.message}")
     T = right_answers(asked.ask, good)
     case = replace(_case(rest, S, T, names), further=attempt(_further, asked))
     return attempt(_both, found, case, S, T, otherwise=found)
@@ -230,18 +229,11 @@ def _both(
     # One answer alone may be that of many mistakes.
     named = attempt(diagnose, case, S, T, effort) if wrong.sum() > 1 else None
     other = named or what_is_wrong(case, S, T, counted=False)
-    says = f"{found.message} {_in_the_others(wrong)} {other.message}"
+    often = in_calls(int(wrong.sum()), len(wrong), other=True)
+    these = " in these calls" if len(wrong) > 1 else ""
+    why = other.message.replace(" in every call", these)
+    says = f"{found.message} The result is also wrong {often}. {why}"
     return Finding(named.slug if named else found.slug, says)
-
-
-def _in_the_others(wrong: NDArray[np.bool_]) -> str:
-    """Return how many results are wrong in the calls that have one."""
-    if len(wrong) == 1:
-        return "In the other call, the result is wrong."
-    many = count(int(wrong.sum()), "result")
-    verb = "is" if wrong.sum() == 1 else "are"
-    some = "all results" if wrong.all() else many
-    return f"In the other {len(wrong)} calls, {some} {verb} wrong."
 
 
 def _near_miss(asked: Asked, case: Case, S: Parts, T: Parts, off: float) -> Finding:
@@ -267,7 +259,7 @@ def _judge_right(asked: Asked, main: Parts, measured: tuple[str, ...]) -> Verdic
             S = valid.taken(ask, asked.fresh, S)
             gap = ask.gaps(S, right_answers(ask, asked.fresh))
             off = float(gap.max())
-            lines = _counted(ask, gap, "with fresh inputs")
+            lines = _counted(ask, gap, "with new random inputs")
             measured += lines[1:]
         if off > ask.near:
             if np.isfinite(off):  # of the others only that they are right
@@ -341,12 +333,10 @@ def _judge_accepted(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
         return _judge_right(asked, S, ())
     if named := sources.of_accepted(ask, stacked(asked.main), S):
         return Verdict("wrong", *named)
-    first, found = wrong[0]
-    given = in_words(first.question, names)
+    _, found = wrong[0]
     often = sum(other.slug == found.slug for _, other in wrong)
-    where = f"This happens for {often} of {len(asked.main) + len(asked.fresh)} inputs"
-    where += _first([1], [given], "first for")
-    return Verdict("wrong", found.slug, f"{found.message} {where}.")
+    where = in_calls(often, len(asked.main) + len(asked.fresh))
+    return Verdict("wrong", found.slug, f"{found.message} This happens {where}.")
 
 
 def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
@@ -370,7 +360,7 @@ def _case(asked: Asked, S: Parts, T: Parts, names: Sequence[str]) -> Case:
 
 def _measured(case: Case, S: Parts, T: Parts, gap: Array) -> tuple[str, ...]:
     ask = case.ask
-    lines = list(_counted(ask, gap, "that are always asked"))
+    lines = list(_counted(ask, gap, "that every check makes"))
     for kind, s, t in zip(ask.kinds, S, T, strict=True):
         lines += kind.measured(s, t)
     return (*lines, *(ask.measured(case) if ask.measured else ()))
@@ -378,11 +368,12 @@ def _measured(case: Case, S: Parts, T: Parts, gap: Array) -> tuple[str, ...]:
 
 def _counted(ask: Ask, gap: Array, which: str) -> tuple[str, str]:
     """Return how far off calls are by their gaps, and how many are right."""
-    beyond = f" beyond {ask.rtol:.3g} of the largest" if ask.rtol else ""
+    more = f" + {ask.rtol:.3g} of the largest entry" if ask.rtol else ""
+    right = int(np.sum(gap <= ask.tolerance))
     return (
-        f"largest difference of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} "
-        f"of {len(gap)}; passes up to {ask.tolerance:.0e}{beyond})",
-        f"calls that are correct: {np.sum(gap <= ask.tolerance)} of {len(gap)} {which}",
+        f"largest error of an entry: {gap.max():.2g} (call {np.argmax(gap) + 1} of "
+        f"{len(gap)}; tolerance: {ask.tolerance:.0e}{more})",
+        f"correct calls: {right} of {len(gap)} {which}",
     )
 
 
@@ -422,8 +413,8 @@ def _with_its_size(case: Case, S: Parts, T: Parts) -> Finding | None:
     if found is None or re.search(r"\d", found.message) or any(k.whole for k in kinds):
         return found
     k = worst_part(kinds, S, T, case.ask.near)
-    off = f"The result is off by up to {kinds[k].apart(S[k], T[k])}."
-    return Finding(found.slug, f"{found.message} {off}")
+    error = say_error(kinds[k].apart(S[k], T[k]))
+    return Finding(found.slug, f"{found.message} {error}")
 
 
 def _unnamed(case: Case) -> Finding | None:
@@ -451,9 +442,9 @@ def _not_finite(m: Matcher) -> Finding | None:
     good = np.all([one.all(axis=1) for one in there], axis=0)
     if good.all():
         return None
-    some = f"{np.sum(~good)} of {len(good)} inputs"
-    says = f"Your function returns NaN or infinity for {some}"
-    found = Finding("not-finite", f"{says}{_first(~good, case.given, 'first for')}.")
+    often = in_calls(int(np.sum(~good)), len(good))
+    says = f"Your function returns {_odd(m)} {often}{_expected_infinity(m)}."
+    found = Finding("not-finite", says)
     if not good.any():
         return found
     rest, S, T = _only(good, case, S, T)
@@ -461,6 +452,27 @@ def _not_finite(m: Matcher) -> Finding | None:
     if both is found and (slip := sources.in_own_line(m)):
         return Finding(found.slug, f"{found.message} {slip.message}")
     return both
+
+
+def _odd(m: Matcher) -> str:
+    """Return what is returned that is no number, and in which of several results."""
+    pairs = zip(m.ask.kinds, m.S, m.T, strict=True)
+    odd = [(kind, s[~np.isfinite(s) & (s != t)]) for kind, s, t in pairs]
+    every = np.concatenate([some for _, some in odd])
+    kinds = {"NaN": np.isnan(every), "infinity": every > 0, "-infinity": every < 0}
+    says = " or ".join(word for word, there in kinds.items() if there.any())
+    names = [kind.called for kind, some in odd if some.size]
+    where = f" for {listed(names)}" if len(m.S) > 1 and all(names) else ""
+    return f"{says}{where}"
+
+
+def _expected_infinity(m: Matcher) -> str:
+    """Return that an infinity is expected where there is none, or ""."""
+    pairs = zip(m.S, m.T, strict=True)
+    right = [t[~np.isfinite(s) & (s != t)] for s, t in pairs]
+    some = set(np.concatenate(right).tolist())
+    word = {(np.inf,): "infinity", (-np.inf,): "-infinity"}.get(tuple(some), "")
+    return f"; expected {word}" if word else ""
 
 
 def _only(good: Array, case: Case, S: Parts, T: Parts) -> tuple[Case, Parts, Parts]:
@@ -488,22 +500,23 @@ def _none(some: Array, kind: Kind) -> Any:
 
 def _none_or_not(m: Matcher) -> Finding | None:
     """Return that it is None where there is an answer, or the other way round."""
-    case, S = m.case, m.S
+    S = m.S
     for s, t, kind in zip(m.S, m.T, m.ask.kinds, strict=True):
         if not kind.none:
             continue
         lost, made = _none(s, kind) & ~_none(t, kind), _none(t, kind) & ~_none(s, kind)
         if not (lost.any() or made.any()):
             continue
-        says = [f"None for {count(lost.sum(), 'input')} with an answer"]
-        says = says * bool(lost.any())
+        n, says = len(s), []
+        if lost.any():
+            often = in_calls(int(lost.sum()), n)
+            says.append(f"Your function returns None {often}; expected an answer.")
         if made.any():
-            many = count(made.sum(), "input")
-            says += [f"an answer for {many} where None is expected ({kind.none})"]
-        where = _first(lost | made, case.given, "first for")
-        told_all = f"Your function returns {', and '.join(says)}{where}."
+            often = in_calls(int(made.sum()), n)
+            which = f"; expected None ({kind.none})."
+            says.append(f"Your function returns an answer {often}{which}")
         called = kind.called if len(S) > 1 else ""
-        return Finding("none-or-not", of_result(told_all, called))
+        return Finding("none-or-not", of_result(" ".join(says), called))
     return None
 
 
@@ -526,21 +539,20 @@ def what_is_wrong(case: Case, S: Parts, T: Parts, counted: bool = True) -> Findi
     if found.slug != "one-factor-off":  # every entry, so where does not matter
         where = tried.in_common(case, S, T, i)
         wrong = difference(S[i], T[i], kind.scale, ask.rtol) > ask.tolerance
-        if counted and not wrong.all() and found.slug not in COUNTED:
+        some = not wrong.all() or found.message.startswith(ERROR)
+        if counted and some and found.slug not in COUNTED:
             found = _in_some_calls(found, int(wrong.sum()), len(wrong))
     says = of_result(found.message, kind.called if len(S) > 1 else "")
     says = f"{_right_results(case, S, T)}{says}{where}{_wrong_too(case, S, T, i)}"
-    says = says.replace("by up to more than", "by more than")
     return Finding(found.slug, says)
 
 
 def _in_some_calls(found: Finding, wrong: int, calls: int) -> Finding:
-    """Return a finding with the number of calls that are wrong."""
-    often = f"The result is wrong {in_calls(wrong, calls)}"
-    if off := re.fullmatch(r"The result is off by up to (.+)\.", found.message):
-        most = off[1] if wrong == 1 else f"up to {off[1]}"
-        return Finding(found.slug, f"{often}, by {most}.")
-    return Finding(found.slug, f"{found.message} {often}.")
+    """Return a finding with the number of wrong calls, before how far they are off."""
+    often = f"The result is wrong {in_calls(wrong, calls)}."
+    says, error, off = found.message.partition(ERROR)
+    parts = [says.strip(), often, error + off]
+    return Finding(found.slug, " ".join(filter(None, parts)))
 
 
 def _wrong_too(case: Case, S: Parts, T: Parts, i: int) -> str:
@@ -622,8 +634,3 @@ SOURCES: Sequence[Callable[[Matcher], Finding | None]] = (
     by_results,
     pairs.second,
 )
-
-
-def _first(which: Any, given: Sequence[str], word: str) -> str:
-    words = given[int(np.argmax(which))]
-    return f", {word} {words}" if 0 < len(words) <= 90 else ""

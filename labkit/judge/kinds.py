@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from labkit.base.text import count
 from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import (
     MATCHES,
@@ -22,6 +23,7 @@ from labkit.judge.answers import (
     largest,
     listed,
     matches,
+    say_error,
     say_factor,
     say_number,
 )
@@ -34,6 +36,8 @@ ROUNDED_AWAY = 1e12  # rounding divided by nothing: its digits are the processor
 DUST = 1e-9  # in units of the scale: what rounding leaves of a right answer
 DIVERGES = 1e9  # times the right answer: how far off it is says nothing
 RIGHT = 1e-6  # and those that differ by less are called right
+# Of arrays that hold no real numbers, by the kind of their dtype.
+OTHERS = {"U": "strings", "S": "bytes", "O": "objects", "c": "complex numbers"}
 OF_UNITS = (1e3, 1e-3)  # factors that a unit with another prefix has
 
 
@@ -106,9 +110,10 @@ class Kind:
                 says = f"Your function returns {_shapes(value)}"
                 return Finding("shape", f"{says}; expected {self.expected}.")
             if array.dtype.kind not in "fiub":
-                says = f"Your function returns {array.dtype} values; "
-                says += f"expected {self.expected}"
-                return Finding("not-numbers", f"{says} of real numbers.")
+                words = OTHERS.get(array.dtype.kind, f"dtype {array.dtype}")
+                says = f"Your function returns an array of {words}; "
+                says += f"expected real numbers ({self.expected})."
+                return Finding("not-numbers", says)
             if not self.fits(array.shape):
                 return self._misfit(array.shape, values)
             # A truth value is 0 or 1: NumPy subtracts none.
@@ -182,6 +187,8 @@ class Kind:
         at = np.unravel_index(np.argmax(off / scale), off.shape)
         if off[at] < DUST * scale[at]:
             return "0"
+        if np.isinf(off[at]):  # or NaN
+            return "infinite"
         one = self.unit and "," not in self.unit  # else that of each entry is another
         unit = f" {self.unit}" if one else ""
         digits = say_number(off[at]) if off[at] < ROUNDED_AWAY else "more than 1e+12"
@@ -195,7 +202,7 @@ class Kind:
         if size < DIVERGES:
             return ""
         times = f"1e{np.floor(np.log10(size)):.0f}"
-        return f"The result is over {times} times as large as expected, so it diverges."
+        return f"The result is over {times} times as large as expected."
 
     def largest_error(self, S: Array, T: Array) -> str:
         """Return how far S is from T at worst as a sentence: "Largest error: 2 m.".
@@ -208,15 +215,14 @@ class Kind:
         apart = self.apart(S, T)
         if self.gap != Kind.gap:
             return f"The result is {self.gap} {apart}."
-        if says := self.diverges(S, T):
-            return says
-        return f"Largest error{'s' * (' and ' in apart)}: {apart}."
+        return self.diverges(S, T) or say_error(apart)
 
     def what_is_wrong(self, S: Array, T: Array) -> Finding:
-        """Return the most useful true thing about answers that no mistake gives."""
-        return one_factor(self, S, T) or Finding(
-            "off", f"The result is off by up to {self.apart(S, T)}."
-        )
+        """Return the most useful true thing about answers that no mistake gives.
+
+        Where nothing but their size is known, the message is that of `say_error`.
+        """
+        return one_factor(self, S, T) or Finding("off", say_error(self.apart(S, T)))
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:
         """Return lines for --explain."""
@@ -225,11 +231,13 @@ class Kind:
 
 def _shapes(value: Any) -> str:
     """Return what is in a list or tuple whose parts make no one array."""
+    if isinstance(value, tuple):
+        return f"a tuple of {count(len(value), 'result')}"
     try:
-        shapes = ", ".join(str(np.shape(part)) for part in value)
+        shapes = listed([str(np.shape(part)) for part in value])
     except (TypeError, ValueError):  # a part is no array either
-        return "lists whose parts have different lengths"
-    return f"parts of shapes {shapes}"
+        return "a list whose parts have different lengths"
+    return f"a list whose parts have the shapes {shapes}"
 
 
 @dataclass(frozen=True)
@@ -263,17 +271,17 @@ class Vector(Kind):
             says = (
                 f"{capitalised(where)} {'are' if len(empty) > 1 else 'is'} 0 in every"
             )
-            off_by = f"The largest error is {self.apart(S, T)}."
+            off_by = say_error(self.apart(S, T))
             return Finding("entries-empty", f"{says} call. {off_by}")
         if not same and _only_the_last(gap(S, T) > RIGHT * self.scale, S, T):
-            says = "All entries are correct except the last one, which is off by up to "
-            return Finding("few-entries-off", f"{says}{self.apart(S, T)}.")
+            says = "All entries are correct except the last one."
+            error = say_error(self.apart(S, T))
+            return Finding("few-entries-off", f"{says} {error}")
         if not 0 < off.sum() <= (max(1, len(off) // 3) if same else 1):
-            return Finding("off", f"The result is off by up to {self.apart(S, T)}.")
+            return Finding("off", say_error(self.apart(S, T)))
         where = _entries(self.names, counted, np.flatnonzero(off))
-        says = f"All entries are correct except {where}. The largest error is "
-        says += f"{self.apart(S, T)}."
-        return Finding("few-entries-off", says)
+        says = f"All entries are correct except {where}."
+        return Finding("few-entries-off", f"{says} {say_error(self.apart(S, T))}")
 
 
 def _entries(names: Sequence[str], counted: Sequence[str], at: Any) -> str:
@@ -349,10 +357,11 @@ def few_entries(
         where = names[k] if k < len(names) else f"{side} {k}, counted from 0"
     else:
         return None
-    return few_told(where, wrong.reshape(len(S), -1), f"{apart.max():.2g}")
+    off = Kind.apart(kind, S, T)  # of entries, whatever the kind measures
+    return few_told(where, wrong.reshape(len(S), -1), say_error(off))
 
 
-def few_told(where: str, wrong: Array, off: str) -> Finding:
+def few_told(where: str, wrong: Array, error: str) -> Finding:
     """Return that only some entries are wrong.
 
     An advice to look at them follows where they are so nearly always; else it is the
@@ -361,14 +370,11 @@ def few_told(where: str, wrong: Array, off: str) -> Finding:
     Args:
         where: the entries, in words.
         wrong: which are wrong, (n, ...), per answer.
-        off: by how much, in words.
+        error: the sentence on the largest error.
     """
     if 2 * wrong.any(axis=1).sum() < len(wrong):
-        says = (
-            "The result is correct in some calls. In the others, all entries are "
-            f"correct except {where}."
-        )
-        return Finding("few-entries-off", f"{says} The largest error is {off}.")
-    says = f"All entries are correct except {where}. The largest error is {off}."
+        says = f"In every wrong call, all entries are correct except {where}."
+        return Finding("few-entries-off", f"{says} {error}")
+    says = f"All entries are correct except {where}. {error}"
     look = "Look for a wrong sign, variable or factor."
     return Finding("few-entries-off", f"{says} {look}")

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from labkit.judge.answer_mistakes import general
-from labkit.judge.answers import difference, gap, listed
+from labkit.judge.answers import difference, gap, listed, say_error
 from labkit.judge.kinds import NEAR, RIGHT, Kind, few_entries, one_factor
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
@@ -35,7 +35,7 @@ class Matrix(Kind):
         if m and n:
             return f"a {m}x{n} matrix"
         given = f"{m} rows" if m else f"{n} columns" if n else ""
-        return "a matrix" + (f" of {given}" if given else "")
+        return "a matrix" + (f" with {given}" if given else "")
 
     def general(self) -> Sequence[Mistake]:  # noqa: D102
         square = self.shape[0] == self.shape[1] is not None
@@ -68,7 +68,7 @@ class Matrix(Kind):
             few_entries(self, S, T)
             or one_factor(self, S, T)
             or part_off(self, S, T)
-            or Finding("off", f"The result is off by up to {self.apart(S, T)}.")
+            or Finding("off", say_error(self.apart(S, T)))
         )
 
 
@@ -90,7 +90,7 @@ def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
     where = " of ".join(one.removesuffix(COUNTED) for one in parts)
     counted = COUNTED * any(one.endswith(COUNTED) for one in parts)
     says = f"All entries are correct except in {where}{counted}."
-    off = f"The largest error is {kind.apart(S, T)}."
+    off = say_error(kind.apart(S, T))
     alone = np.ndim(kind.scale) == 0
     if alone and (found := one_factor(kind, S[:, wrong], T[:, wrong])):
         off = found.message.replace("of the result", "of this part", 1)
@@ -158,10 +158,10 @@ class Jacobian(Matrix):
             )
             says += "wrong."
         else:
-            says = "All columns are wrong." if len(bad) == self.shape[1] else ""
+            says = ""
         if half:
             says += f" Only the {half} rows are wrong."
-        says += f" The largest error is {self.apart(S, T)}."
+        says += f" {say_error(self.apart(S, T))}"
         return Finding("columns-off", says.strip())
 
 
@@ -174,8 +174,8 @@ class Symmetric(Matrix):
         if float(difference(S, S.mT, self.scale).max()) > NEAR:
             return Finding(
                 "not-symmetric",
-                "The result should be symmetric, but differs from its transpose by "
-                f"{skew:.3g}. The result is off by up to {self.apart(S, T)}.",
+                "The result should be symmetric, but it differs from its transpose by "
+                f"{skew:.3g}. {say_error(self.apart(S, T))}",
             )
         found = few_entries(self, S, T) or one_factor(self, S, T)
         if found := found or part_off(self, S, T):
@@ -183,12 +183,12 @@ class Symmetric(Matrix):
         off = gap(S, T) / self.scale
         diagonal = np.eye(S.shape[-1], dtype=bool)
         if off[:, ~diagonal].max(initial=0.0) <= RIGHT:
-            says = "Only the diagonal is wrong"
+            says = "Only the diagonal is wrong."
         elif off[:, diagonal].max() <= RIGHT:
-            says = "The diagonal is correct, but other entries are not"
+            says = "Only the diagonal is correct."
         else:
             return super().what_is_wrong(S, T)
-        return Finding("part-off", f"{says}: off by up to {self.apart(S, T)}.")
+        return Finding("part-off", f"{says} {say_error(self.apart(S, T))}")
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
         least = least_eigenvalue(0.5 * (S + S.mT))
@@ -214,7 +214,7 @@ class Covariance(Symmetric):
         return Finding(
             "not-positive",
             f"The result has a negative eigenvalue ({least:.3g}), so it is not a "
-            f"covariance. The result is off by up to {self.apart(S, T)}.",
+            f"covariance. {say_error(self.apart(S, T))}",
         )
 
 

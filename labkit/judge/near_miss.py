@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from labkit.base.exchange import Reply
-from labkit.judge.answers import difference
+from labkit.base.text import count
+from labkit.judge.answers import difference, say_error
 from labkit.judge.mistake import Finding
 from robo47.checks import Array
 
@@ -43,8 +44,8 @@ def explain(S: Array, T: Array) -> Finding:
     )
     return Finding(
         "rounded-somewhere",
-        f"The result is close, but it is off by {about}. Rounding alone would leave "
-        "about 1e-15. " + why,
+        f"The result is nearly correct. {say_error(about)} Rounding alone would cause "
+        f"an error of about 1e-15. {why}",
     )
 
 
@@ -61,9 +62,9 @@ def rounded(S: Array, T: Array) -> Finding | None:
         if difference(S, np.round(T, decimals)).max() < 1e-12:
             return Finding(
                 "rounded",
-                f"Your answer is rounded to {decimals} decimal{'s' * (decimals > 1)}, "
-                f"so it is {difference(S, T).max():.0e} off. Round what you print, not "
-                "what you return.",
+                f"Your result is rounded to {count(decimals, 'decimal')}. "
+                f"{say_error(f'{difference(S, T).max():.0e}')} Round what you print, "
+                "not what you return.",
             )
     return None
 
@@ -119,7 +120,7 @@ def _in_another_order(S: Array, T: Array, wrong: Array, shape: Sequence[int]) ->
         turned = np.swapaxes(T.reshape(shape), 1, 2).reshape(len(T), -1)
         near = EXACT * np.abs(T).max()
         if np.abs(S - turned)[wrong].max() <= near:
-            return " In every wrong call, your result is the correct one, transposed."
+            return " In every wrong call, your result is the correct result transposed."
     if wrong.all():
         return " The numbers are correct, but their order is wrong."
     # Few numbers, such as those of a matrix of 0 and 1, are the right ones by chance.
@@ -144,8 +145,8 @@ def one_rule(S: Array, T: Array, wrong: Array) -> str:
     if np.abs(off - off[0]).max() <= near and np.ptp(T, axis=0).max() > near:
         return (
             " The error is the same in every call. Its largest entry is "
-            f"{np.abs(off).max():.3g}. Is a constant term missing, or is there one too "
-            "many?"
+            f"{np.abs(off).max():.3g}. Is a constant term missing, or is there an "
+            "additional one?"
         )
     limit = float(np.abs(S).max())
     cut = np.abs(S - np.clip(T, -limit, limit)).max() <= near
@@ -169,6 +170,7 @@ def _a_factor_each(S: Array, T: Array) -> str:
     if np.abs(factor).min() == 0.0 or np.isclose(low, high, rtol=1e-3):
         return ""
     return (
-        " In each call, all entries are wrong by one factor, which differs between "
-        f"calls ({low:.3g} to {high:.3g}). Look for a factor that depends on the input."
+        " In each call, all entries are wrong by the same factor, but this factor "
+        f"differs between calls ({low:.3g} to {high:.3g}). Look for a factor that "
+        "depends on the input."
     )

@@ -11,7 +11,9 @@ from labkit.judge.answers import (
     difference,
     gap,
     in_calls,
+    listed,
     millimetres,
+    say_error,
     say_mm,
 )
 from labkit.judge.kinds import NEAR, RIGHT, Kind, Scalar, one_factor
@@ -39,13 +41,14 @@ class _Halves(Kind):
         off = (gap(S, T) / self.scale).reshape(-1, 2, 3).max(axis=(0, 2))
         if found := one_factor(self, S, T):
             return found
+        error = say_error(self.apart(S, T))
         for i, slug in enumerate(("second-half-off", "first-half-off")):
             if off[i] <= RIGHT:
                 says = f"Your {self.halves[i]} is correct, but your "
-                says += f"{self.halves[1 - i]} is off by up to {self.apart(S, T)}."
+                says += f"{self.halves[1 - i]} is not. {error}"
                 return Finding(slug, says)
-        says = f"Your {self.halves[0]} and your {self.halves[1]} are both wrong, by up "
-        return Finding("both-halves-off", f"{says}to {self.apart(S, T)}.")
+        says = f"Your {self.halves[0]} and your {self.halves[1]} are both wrong."
+        return Finding("both-halves-off", f"{says} {error}")
 
 
 @dataclass(frozen=True)
@@ -73,7 +76,8 @@ class Points(Kind):
 
     @property
     def expected(self) -> str:  # noqa: D102
-        return "two vectors of 3" if self.shape[0] == 2 else f"{self.shape[0]} points"
+        count = self.shape[0]
+        return "two vectors of 3 numbers" if count == 2 else f"{count} points"
 
     def why_shape(self, got: tuple[int, ...]) -> str:  # noqa: D102
         count = self.shape[0]
@@ -94,13 +98,12 @@ class Points(Kind):
         if len(words) == 2 and "0" in words:
             right, wrong = (1, 0) if words[1] == "0" else (0, 1)
             off = self.names[wrong]
-            says = f"The {self.names[right]} is correct, but the {off} is off by up to"
-            return Finding(f"{off}-off", f"{says} {words[wrong]}.")
-        each = ", ".join(
-            f"{mm} for the {name}" for mm, name in zip(words, self.names, strict=False)
-        )
-        every = "Both" if len(words) == 2 else "All"
-        return Finding("both-off", f"{every} are wrong, by up to {each}.")
+            says = f"The {self.names[right]} is correct, but the {off} is not."
+            return Finding(f"{off}-off", f"{says} {say_error(words[wrong])}")
+        pairs = zip(words, self.names, strict=False)
+        each = listed([f"{mm} for the {name}" for mm, name in pairs])
+        every = "Both vectors" if len(words) == 2 else "All points"
+        return Finding("both-off", f"{every} are wrong. {say_error(each)}")
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
         pairs = zip(self.names, self._off(S, T), strict=False)
@@ -137,7 +140,7 @@ class Count(Scalar):
 class Index(Count):
     """Which one: a whole number that counts places from 0."""
 
-    expected = "an index, a whole number"
+    expected = "an index"
     usual = ("counted-from-one", "one-too-small")
 
     def read(self, values: Sequence[object]) -> list[Array] | Finding:  # noqa: D102
@@ -268,10 +271,9 @@ class Waypoints(Matrix):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         off = gap(S, T) / self.scale > RIGHT
         first = int(np.argmax(off.any(axis=(0, 2))))
-        says = f"The path is correct before waypoint {first}, counted from 0, "
-        says += "and wrong there"
-        says = says if first else "The path is wrong from its first waypoint on"
-        return Finding("off", f"{says}, by up to {self.apart(S, T)}.")
+        says = f"The first wrong waypoint is waypoint {first}, counted from 0."
+        says = says if first else "The path is wrong from its first waypoint on."
+        return Finding("off", f"{says} {say_error(self.apart(S, T))}")
 
 
 @dataclass(frozen=True)

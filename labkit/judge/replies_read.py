@@ -15,12 +15,12 @@ from labkit.judge.answers import (
     Parts,
     as_one,
     as_real,
+    capitalised,
     in_calls,
     own,
     parts,
 )
 from labkit.judge.ask import Ask, Asked, of_complex, replies, stacked
-from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding, Verdict
 from labkit.lesson.slips import OTHER_PACKAGES, arguments, draws, no_python
 from robo47.checks import Array
@@ -51,7 +51,7 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
             says = f"{function} did not return: {reply.error}."
         case "unsendable":
             slug = "not-an-array"
-            says = f"{function}: {reply.error}."
+            says = f"Your `{function}` {reply.error.removeprefix('it ')}."
         case "huge":
             slug = "huge-numbers"
             says = f"I{reply.error[1:]}, far larger than any right "
@@ -166,19 +166,20 @@ def read(exchanges: Sequence[Exchange], ask: Ask, source: str = "") -> Parts | F
     replied = replies(exchanges)
     if broken := [reply for reply in replied if reply.kind]:
         text = f"{broken[0].kind}: {broken[0].error}"
+        often = in_calls(len(broken), len(replied))
         for slip in ask.slips:
             if re.search(slip.error, text) and re.search(slip.source, source):
-                return Finding(slip.slug, slip.says)
-        often = in_calls(len(broken), len(replied))
+                stops = f" Your function stops with an error {often}."
+                stops = stops if len(broken) < len(replied) else ""
+                return Finding(slip.slug, f"{slip.says}{stops}")
         return Finding("raises", stops_with(broken[0], often))
     nothing = sum(reply.value is None for reply in replied)
     if nothing and not getattr(ask.kind, "none", ""):
         says = "Your function returns nothing (None). Is the result computed, but not "
         says += "returned?"
         if nothing < len(replied):
-            some = f"{nothing} of {len(replied)} inputs"
-            says = f"Your function returns None for {some}; "
-            says += f"{results.expected(ask.kind)}."
+            some = in_calls(nothing, len(replied))
+            says = f"Your function returns None {some}; {results.expected(ask.kind)}."
         return Finding("nothing-returned", says)
     columns = results.read(ask.kind, values(exchanges))
     return columns if isinstance(columns, Finding) else tuple(map(as_one, columns))
@@ -197,15 +198,21 @@ def not_accepted(asked: Asked) -> Iterator[tuple[Exchange, Finding]]:
             yield one, why if isinstance(why, Finding) else Finding("not-accepted", why)
 
 
-def of_another_size(asked: Asked) -> Finding | None:
-    """Return that answers have not the size that their questions ask for, if so."""
+def of_another_size(asked: Asked, other: bool = False) -> Finding | None:
+    """Return that answers have not the size that their questions ask for, if so.
+
+    Args:
+        asked: the questions, with their replies.
+        other: whether something else was said of further questions.
+    """
     off = [one for one in sizes(asked.ask, asked.main) if one[2] != one[3]]
     if not off:
         return None
-    _, kind, got, right = off[0]
-    calls = len({i for i, *_ in off})
-    says = kind.another_size(got, right)
-    return Finding("shape", f"{says} {in_calls(calls, len(asked.main))}.")
+    _, j, got, right = off[0]
+    calls = len({i for i, k, *_ in off if k == j})
+    says = asked.ask.kinds[j].another_size(got, right)
+    says = f"{says} {in_calls(calls, len(asked.main), other)}."
+    return Finding("shape", results.of_one(asked.ask.kind, j, says))
 
 
 def of_another_length(asked: Asked) -> bool:
@@ -222,8 +229,8 @@ def of_another_length(asked: Asked) -> bool:
 
 def sizes(
     ask: Ask, exchanges: Sequence[Exchange]
-) -> Iterator[tuple[int, Kind, tuple[int, ...], tuple[int, ...]]]:
-    """Yield the place, the kind, the shape and the right shape of each result.
+) -> Iterator[tuple[int, int, tuple[int, ...], tuple[int, ...]]]:
+    """Yield the call, the place, the shape and the right shape of each result.
 
     Nothing is yielded where no question decides them, and of no None.
     """
@@ -234,9 +241,9 @@ def sizes(
     given = results.read(ask.kind, values(exchanges))
     assert not isinstance(given, Finding)  # it was read before
     for i, (its, mine) in enumerate(zip(right, zip(*given, strict=True), strict=True)):
-        for T, S, kind in zip(its, mine, kinds, strict=True):
+        for j, (T, S, kind) in enumerate(zip(its, mine, kinds, strict=True)):
             if not (kind.is_none(T) or kind.is_none(S)):
-                yield i, kind, S.shape, T.shape
+                yield i, j, S.shape, T.shape
 
 
 def kept_state(asked: Asked, source: str = "") -> Finding | None:
@@ -250,10 +257,10 @@ def kept_state(asked: Asked, source: str = "") -> Finding | None:
         return Finding("draws-itself", _draws_itself(next(given, "")))
     return Finding(
         "kept-between-calls",
-        f"For {len(differ)} of {len(replied)} inputs, the same input gave two "
-        "different answers, so a value is kept between calls: a default argument such "
-        "as T=np.eye(4), an array or list at the top of the file, or the last call's "
-        "input. Create it in the function.",
+        f"{capitalised(in_calls(len(differ), len(replied)))}, the same arguments gave "
+        "two different results, so your function keeps a value between calls, such as "
+        "a default argument T=np.eye(4), an array or list at the top of the file, or "
+        "the last call's input. Create it in the function.",
     )
 
 
@@ -267,8 +274,8 @@ def _draws_itself(given: str) -> str:
     if given:
         remedy = f"Use only the random numbers in the argument `{given}`"
     return (
-        "The same input gave two different answers, because the function draws random "
-        f"numbers itself. {remedy}, so that a run can be repeated."
+        "The same arguments gave two different results, because your function draws "
+        f"random numbers itself. {remedy}, so that a run can be repeated."
     )
 
 
@@ -283,9 +290,8 @@ def shared_memory(replies: Sequence[Reply], copies: bool = True) -> Finding | No
     if "another answer" in shared:
         return Finding(
             "one-array-for-all",
-            "Your function returns the same array object in every call, so the next "
-            "call "
-            "overwrites the last answer. Create a new array in the function.",
+            "Your function returns the same array object in every call, so each call "
+            "overwrites the previous result. Create a new array in the function.",
         )
     if shared and copies:
         return Finding(

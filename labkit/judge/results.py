@@ -11,11 +11,12 @@ from typing import Any
 import numpy as np
 
 from labkit.base.text import count
-from labkit.judge.answers import of_result
+from labkit.judge.answers import capitalised, listed
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Finding
 from robo47.errors import Robo47Error
 
+ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 Kinds = Kind | tuple[Any, ...]  # one of an answer, or of each of its results
 
 
@@ -93,13 +94,27 @@ def read(kind: Kinds, values: Sequence[Any]) -> list[list[Any]] | Finding:
     for row in rows:
         if isinstance(row, Finding):
             return row
-    for one, column in zip(kinds, zip(*rows, strict=True), strict=True):
+    for j, (one, column) in enumerate(zip(kinds, zip(*rows, strict=True), strict=True)):
         part = one.read(column)
         if isinstance(part, Finding):
-            called = (one.called or "one result") if len(kinds) > 1 else ""
-            return Finding(part.slug, of_result(part.message, called))
+            return Finding(part.slug, of_one(kind, j, part.message))
         found.append(part)
     return found
+
+
+def of_one(kind: Kinds, j: int, says: str) -> str:
+    """Return what "your function returns" as said of one result of several."""
+    if isinstance(kind, Kind):
+        return says
+    return says.replace("Your function returns", f"{capitalised(nth(kind, j))} is", 1)
+
+
+def nth(kind: Kinds, j: int) -> str:
+    """Return one result of several in words: "your second result, the covariance,"."""
+    place, called = places(kind)[j], flat_kinds(kind)[j].called
+    flat = place.count("[") == 1 and j < len(ORDINALS)
+    which = f"{ORDINALS[j]} result" if flat else f"result {place}"
+    return f"your {which}, {called}," if called else f"your {which}"
 
 
 def as_sent(kind: Kinds, parts: Sequence[Any]) -> Any:
@@ -119,9 +134,15 @@ def expected(kind: Kinds) -> str:
     if isinstance(kind, Kind):
         return f"expected {kind.expected}"
     every = [_expected(one) for one in kind]
+    names = [one.called for one in kind if isinstance(one, Kind) and one.called]
+    named = len(names) == len(kind)
     if len(set(every)) == 1:
-        return f"expected {len(kind)} results, each {every[0]}"
-    return f"expected {len(kind)} results: {', '.join(every)}"
+        which = f" ({listed(names)})" if named else ""
+        return f"expected {len(kind)} results{which}, each {every[0]}"
+    if named:
+        pairs = zip(names, every, strict=True)
+        every = [f"{name} ({its})" for name, its in pairs]
+    return f"expected {len(kind)} results: {listed(every)}"
 
 
 def _given(value: Any) -> str:
@@ -137,4 +158,4 @@ def _given(value: Any) -> str:
 def _expected(kind: Kinds) -> str:
     if isinstance(kind, Kind):
         return kind.expected
-    return f"a tuple of {len(kind)}"
+    return f"a tuple of {len(kind)} results"

@@ -16,6 +16,7 @@ from labkit.judge.answers import (
     millimetres,
     rigid,
     say_degrees,
+    say_error,
     say_mm,
     say_range,
 )
@@ -23,6 +24,8 @@ from labkit.judge.kinds import NEAR, RIGHT, Kind, few_entries
 from labkit.judge.matrices import split
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
+
+NOT_THIS = "R is a valid rotation matrix, but not the correct one."
 
 
 @dataclass(frozen=True)
@@ -92,15 +95,15 @@ class Pose(Kind):
             return Finding("bottom-row", f"{says}pose.")
         t_off = say_mm(millimetres(t, t_true))
         if difference(R, R_true).max() <= RIGHT and t_off != "0":
-            says = "R is correct in every call, but the translation is off by up to"
-            return Finding("translation-off", f"{says} {t_off}.")
+            says = "R is correct in every call, but the translation is not."
+            return Finding("translation-off", f"{says} {say_error(t_off)}")
         slug, message = rotation_wrong(R, R_true)
         if t_off == "0":
             return Finding(slug, f"The translation is correct. {message}")
-        slug = "pose-off" if slug == "rotation-off" else slug
-        return Finding(
-            slug, f"{message} The translation is also wrong, by up to {t_off}."
-        )
+        if slug == "rotation-off":
+            slug, message = "pose-off", NOT_THIS
+        error = say_error(self.apart(S, T))
+        return Finding(slug, f"{message} The translation is wrong, too. {error}")
 
     def measured(self, S: Array, T: Array) -> tuple[str, ...]:  # noqa: D102
         (R, t), (R_T, t_T) = split(S), split(T)
@@ -135,12 +138,11 @@ def rotation_wrong(S: Array, T: Array) -> Finding:
             f"R is a reflection (det R = -1) {in_calls(int(mirrored), len(S))}.",
         )
     off_by = degrees(S, T)
-    often = " in every call" if np.ptp(off_by) < 1e-3 else ""
-    return Finding(
-        "rotation-off",
-        f"R is a valid rotation matrix, but it is wrong by {'' if often else 'up to '}"
-        f"{say_degrees(off_by)}{often}.",
-    )
+    angle = say_degrees(off_by)
+    says = f"R is a valid rotation matrix, but it is wrong by {angle} in every call."
+    if np.ptp(off_by) >= 1e-3:
+        says = f"{NOT_THIS} {say_error(angle)}"
+    return Finding("rotation-off", says)
 
 
 def _skew(R: Array) -> float:

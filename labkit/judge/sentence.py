@@ -22,7 +22,7 @@ from labkit.lesson.lab_module import definition
 from labkit.lesson.starter import function_lines
 
 MODULES = ("np", "se3", "screws", "math")
-EVERYWHERE = ", in every line of its kind"  # of a change that is made in several places
+EVERYWHERE = ", in every similar line"  # of a change that is made in several places
 
 # What "your code" does, where the place of a change says no more.
 SAYS = {
@@ -30,9 +30,9 @@ SAYS = {
     "negated": "reverses one sign",
     "order": "puts two operands in the wrong order",
     "left-out": "omits a part of the formula",
-    "operation": "uses one wrong operator",
+    "operation": "uses a wrong operator",
     "sign-lost": "loses a sign, because it takes an absolute value",
-    "name": "uses one variable where another belongs",
+    "name": "uses a wrong variable",
     "index": "uses a wrong index or range",
     "number": "uses a wrong number in the formula",
     "factor": "omits a factor of two, or has one too many",
@@ -42,7 +42,7 @@ SAYS = {
     "squared": "omits a square, or has one too many",
     "exchanged": "swaps two variables",
     "scaled": "multiplies or divides the result by one variable too many",
-    "function": "calls one function where another belongs",
+    "function": "calls a wrong function",
     "condition": "has a wrong condition",
     "line": "omits one line, repeats it, or has it in the wrong place",
     "clamp": "omits a limit, or applies it only on one side",
@@ -53,7 +53,7 @@ SAYS = {
     "diagonal": "uses only a part of a matrix",
     "entries": "puts the entries of a list or vector in the wrong order",
     "entry-zero": "omits one entry of a list or vector, as if it were 0",
-    "entry-twice": "uses one entry of a list or vector where another belongs",
+    "entry-twice": "uses a wrong entry of a list or vector",
     "entry-some": "uses only some entries of a list or vector",
     "added": "adds a term that does not belong to the formula",
 }

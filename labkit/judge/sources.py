@@ -69,8 +69,9 @@ def authors(m: Matcher, digits: bool = True) -> Finding | None:
         found.setdefault(one.slug, with_evidence(m, one))
     if len(found) == 2:
         either, other = found.values()
-        says = "Your numbers fit two different mistakes."
-        says += f" Either: {as_clause(either.message)} Or: {as_clause(other.message)}"
+        says = "Each of two different mistakes explains your results."
+        says += f" First possibility: {as_clause(either.message)}"
+        says += f" Second possibility: {as_clause(other.message)}"
         return Finding(either.slug, says)
     return next(iter(found.values())) if len(found) == 1 else None
 

@@ -152,7 +152,7 @@ def _other_loops(body: Lines, at: int, loop: Any) -> Iterator[tuple[ast.stmt, st
             reset = _with(loop, [line, *loop.body])
             yield reset, "resets a value in every iteration of a loop"
             stale = _with(loop, _stale(loop.body, line))
-            yield stale, "uses a value from before a loop in all its iterations"
+            yield stale, "uses the value from before a loop in every iteration"
 
 
 def _stale(lines: Lines, first: ast.Assign) -> Lines:

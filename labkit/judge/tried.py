@@ -7,7 +7,7 @@ the fresh ones, which were asked in the same round, would be told the same.
 import re
 
 from labkit.judge import near_miss
-from labkit.judge.answers import Parts, as_one
+from labkit.judge.answers import Parts, as_one, say_error
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 from robo47.checks import Array
@@ -31,7 +31,7 @@ def what_is_wrong(case: Case, S: Parts, T: Parts, i: int) -> Finding:
     """
     kind = case.ask.kinds[i]
     found = kind.what_is_wrong(S[i], T[i])
-    plain = Finding("off", f"The result is off by up to {kind.apart(S[i], T[i])}.")
+    plain = Finding("off", say_error(kind.apart(S[i], T[i])))
     if near_miss.about_right(S[i], T[i]) and found.slug not in _EXACT:
         return plain
     if case.further is None:

@@ -3,9 +3,9 @@
 `robo47.attempt` describes the interface for `make capstone` and `make proof`. A
 diffusion policy learns from demonstrations in a plane (Days 15 to 17) and moves a
 sphere in the Panda's hand. A camera, the eye, sees the puck through a glass tray (Day
-19). The policy draws plans, and with them the side on which the sphere goes around the
-puck (Day 17). The functions of Day 21 connect these plans with the arm. After three
-seconds a hand moves the puck aside.
+19). The policy draws plans at random, which determines the side on which the sphere
+goes around the puck (Day 17). The functions of Day 21 connect these plans with the arm.
+After three seconds the simulation moves the puck aside, as a person could do.
 
 `attempt` receives the functions that it calls, one per name in `USES`: the library's
 (`library()`), a student's, or a mixture.
@@ -48,7 +48,7 @@ from robo47.pushing.task import PUCK, Options, Push
 
 NAME = "the push"
 THING = "puck"
-GOAL = "at home within 10 mm, although a hand moved it"
+GOAL = "at home within 10 mm, although moved once"
 MORAL = (
     "Each row has the worst numbers of three pucks. A puck at home proves little:\n"
     "compare the error of the camera (seen), the lag, and the guard's score (new)."

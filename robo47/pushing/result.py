@@ -22,7 +22,7 @@ class Result(NamedTuple):
     lag_mm: float  # worst distance of the sphere from its set point
     new: float  # largest distance from the demonstrations, standard deviations
     limit: float  # of the guard
-    moved: bool  # a hand moved the puck
+    moved: bool  # the simulation moved the puck aside once
     stopped: str  # why it did not go on; "" where it did
     observed: Array  # observations at the ticks, (ticks, 4)
     seconds: float  # the duration of the task in the simulation

@@ -16,7 +16,7 @@ from robo47.pushing.task import HOME_MM
 HEAD = f"""
 {"":24}{"place":>7}{"time":>7}{"side":>7}{"seen":>7}{"lag":>7}{"new":>7}{"home":>9}
 {"":24}{"mm":>7}{"s":>7}{"":7}{"mm":>7}{"mm":>7}"""
-MOMENTS = ("push", "moved by hand", "push again", "home")
+MOMENTS = ("push", "moved aside", "push again", "home")
 DRAWN = ("tray", "mark", "eye", "stick", "sphere", "puck")  # geoms besides the arm
 KINDS = {
     mujoco.mjtGeom.mjGEOM_BOX: "box",
@@ -44,7 +44,7 @@ def summary(result: Result) -> Summary:
     after = []
     if result.moved:
         after.append(
-            f"a hand moved the puck by {1e3 * guard.MOVED:.0f} mm after"
+            f"the simulation moved the puck by {1e3 * guard.MOVED:.0f} mm after"
             f" {guard.BEFORE * push.TICK:.0f} s"
         )
     after.append(f"the guard's limit is {result.limit:.2f}")
@@ -56,15 +56,15 @@ def summary(result: Result) -> Summary:
         after=after,
         number=f"{result.place_mm:.0f} mm",
         of="the distance of the puck from home",
-        came="The policy samples a side. The arm goes around a puck on this side and"
-        " pushes it home, also after a hand has moved the puck. The puck ends"
+        came="The arm goes around a puck on a random side, pushes it home, and does so"
+        " again after the simulation has moved the puck. The puck ends"
         f" {result.place_mm:.0f} mm from home; the limit is 10 mm."
         if not result.stopped
         else f"The arm stops: {result.stopped}.",
         way=f"It goes around the puck on the {side}. The camera is at most"
         f" {result.seen_mm:.1f} mm off, and the sphere at most {result.lag_mm:.1f} mm"
-        " from its set point. The test had one simulator, one puck and one movement by"
-        " a hand.",
+        " from its set point. The test had one simulator, one puck, and one displacement"
+        " of the puck.",
         figures=figures(result),
     )
 

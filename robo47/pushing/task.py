@@ -24,7 +24,7 @@ FASTEST = 0.2  # m/s, of the set point
 LOW, HIGH = np.array([-0.27, -0.27]), np.array([0.24, 0.27])
 ROUND_SECONDS = 2.5  # s, in which the sphere goes around the puck
 PARTS = 5  # of a tick, when it looks ahead
-HAND_TICKS = 3  # in which a hand moves the puck, at a right angle to its way home
+ASIDE_TICKS = 3  # in which the puck is moved, at a right angle to its path home
 
 HOME_MM = 10.0  # mm: a puck closer to home than this is at home
 
@@ -42,7 +42,7 @@ class Options(NamedTuple):
     late: int = 1  # ticks from a look to the plan that was drawn from it
     ahead: bool = True  # a late plan is drawn for where things will be
     forward: bool = True  # the spring's damper is given the set point's velocity
-    moved: bool = True  # a hand moves the puck
+    moved: bool = True  # the simulation moves the puck aside once
     draw: int = 0  # seed of the draws
 
 
@@ -109,7 +109,7 @@ class Push:
                 break
             if tick % self.options.executed == 0:
                 self._draw(seen, tick)
-            self._move(self._action(tick), self._hand(tick))
+            self._move(self._action(tick), self._aside(tick))
 
     def _look(self) -> Array:
         """Return the observation: where sphere and puck are, (4,)."""
@@ -142,23 +142,23 @@ class Push:
         v = self.fns.clamp_speed(self._entry(tick), FASTEST)
         return np.asarray(self.fns.keep_inside(self.set_point, v, LOW, HIGH, push.TICK))
 
-    def _hand(self, tick: int) -> Array:
-        """Return the velocity at which a hand moves the puck in a tick, (2,)."""
+    def _aside(self, tick: int) -> Array:
+        """Return the velocity of the puck while it is moved aside in a tick, (2,)."""
         since = tick - guard.BEFORE
-        if not (self.options.moved and 0 <= since < HAND_TICKS):
-            if self.phases[-1][0] == "moved by hand":
+        if not (self.options.moved and 0 <= since < ASIDE_TICKS):
+            if self.phases[-1][0] == "moved aside":
                 self.phases.append(("push again", self.now))
             return np.zeros(2)
         if since == 0:
-            self.phases.append(("moved by hand", self.now))
+            self.phases.append(("moved aside", self.now))
             x, y = self.puck()
             across = np.array([-y, x]) / max(np.hypot(x, y), 1e-9)
             away = np.sign((self.puck() - self.sphere()) @ across) or 1.0
             self.across = away * across
-        return guard.MOVED / (HAND_TICKS * push.TICK) * self.across
+        return guard.MOVED / (ASIDE_TICKS * push.TICK) * self.across
 
-    def _move(self, v: Array, hand: Array) -> None:
-        """Move the set point for a tick, and the puck if the hand does."""
+    def _move(self, v: Array, aside: Array) -> None:
+        """Move the set point for a tick, and the puck at the velocity `aside`."""
         start = self.set_point
 
         def set_point(t: float) -> tuple[Array, Array]:
@@ -166,22 +166,22 @@ class Push:
 
         def held(model: mujoco.MjModel, data: mujoco.MjData) -> None:
             at = slice(self.address, self.address + 2)
-            data.qpos[at] += hand * model.opt.timestep
+            data.qpos[at] += aside * model.opt.timestep
 
         self._run(
             self.arm.follow(set_point, self.posture),
             push.TICK,
-            held if hand.any() else None,
+            held if aside.any() else None,
         )
         self.set_point = start + push.TICK * v
 
-    def _run(self, law: Any, seconds: float, hand: Any = None) -> None:
+    def _run(self, law: Any, seconds: float, aside: Any = None) -> None:
         def controller(t: float, q: Array, qd: Array) -> Array:
             tau = self.fns.saturate(law(t, q, qd), self.arm.tau_max)
             return np.append(tau, 0.0)
 
         world = (self.model, self.data)
-        watch = {"push": hand, "watch": lambda _, data: data.qpos.copy()}
+        watch = {"push": aside, "watch": lambda _, data: data.qpos.copy()}
         self.runs.append(simulate.run(*world, controller, seconds, rate=RATE, **watch))
         self.now += seconds
 

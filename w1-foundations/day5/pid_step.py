@@ -3,7 +3,7 @@
 import numpy as np
 
 from labkit.judge import Row, Vector, rounded
-from labkit.judge.answers import of_result
+from labkit.judge.answers import ERROR, in_calls, of_result
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 
@@ -17,22 +17,22 @@ NAMES = ("acceleration", "integral")
 
 
 def which_answer(case: Case) -> Finding:
-    """Say which of the two answers is wrong, how far, and for how many inputs."""
+    """Say which of the two results is wrong, in how many calls, and how far."""
     parts = list(zip(case.ask.kinds, case.S, case.T, strict=True))
     off = np.array([np.abs(S - T).max(axis=1) / kind.scale for kind, S, T in parts])
     wrong = off > case.ask.near
     bad = [bool(some.any()) for some in wrong]
     at = 0 if bad == [True, False] else 1  # where both are wrong: the integral first
     kind, S, T = parts[at]
-    says = of_result(kind.what_is_wrong(S, T).message, kind.called)
-    rest = "Your integral is correct, but your acceleration is wrong."
-    if bad == [False, True]:
-        rest = "Your acceleration is correct, but your integral is wrong."
+    rest = f"Your {NAMES[1 - at]} is correct."
     if all(bad):
-        rest = "Both of your outputs are wrong. Look at the integral first."
-    count = int(np.sum(~wrong.any(axis=0)))
-    where = f" The result is correct in {count} of {len(S)} calls." if count else ""
-    return Finding(f"{NAMES[at]}-wrong", f"{rest} {says}{where}")
+        rest = "Both of your results are wrong. Look at the integral first."
+    often = f"Your {NAMES[at]} is wrong {in_calls(int(wrong[at].sum()), len(S))}."
+    what = kind.what_is_wrong(S, T).message
+    if not what.startswith(ERROR):
+        what = of_result(what, f"your {NAMES[at]}")
+    says = f"{rest} {often} {what}"
+    return Finding(f"{NAMES[at]}-wrong", says)
 
 
 row = Row(KINDS, unnamed=which_answer, before_slips=False)

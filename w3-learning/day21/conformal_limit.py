@@ -51,9 +51,9 @@ def _(rng):
 )
 def _(scores, share):
     """quantile: your function interpolates a quantile of the n scores, as np.quantile
-      does. Return the k-th smallest score, k = ceil((n + 1) (1 - share))
-    quantile 2: your function rounds a quantile of the n scores up to a score. Return
-      the k-th smallest score, k = ceil((n + 1) (1 - share))
+      does. Return a score or infinity. How many ranks can a new score have among the n?
+    quantile 2: your function rounds a quantile of the n scores up to a score. This
+      quantile ignores the new score. How many ranks can a new score have among them?
     clamped: your function returns the largest score if there are too few scores. Return
       infinity instead, because no finite limit has the guarantee
     clamped 2: your function returns the largest score if there are too few scores.
@@ -64,25 +64,25 @@ def _(scores, share):
       score exceeds the limit with a probability of at most `share`
     n-scores: your code uses the rank ceil(n * (1 - share)). Replace n by n + 1, because
       the new score has one of n + 1 ranks
-    largest: your function returns the largest score. Return the k-th smallest score, k
-      = ceil((n + 1) (1 - share))
+    largest: your function returns the largest score. Return the smallest of the scores
+      that a new score exceeds with a probability of at most `share`
     share-of-the-small: your code uses `share` as the fraction of the scores below the
       limit. Use 1 - share instead, because `share` is the fraction above the limit
-    counted-from-0: your limit is one rank too high. The k-th smallest score has the
-      index k - 1 in the sorted scores
+    counted-from-0: your limit is one rank too high. Ranks count from 1, but the indices
+      of the sorted scores count from 0
     floor-plus-1: your code rounds the rank down and adds 1. Round the rank up instead,
       because your rank is too high if (n + 1) * (1 - share) is a whole number
     interpolated: your code interpolates between two scores, and returns the largest
-      score if k is above n. Return the k-th smallest score itself, and infinity if k is
-      above n
+      score if there are too few scores. Return one of the scores, and infinity if the
+      rank of the limit is above n
     interpolated 2: your rank is correct, but your code interpolates between two scores.
-      Return the k-th smallest score itself
+      Return the score that has this rank
     nan-if-few: your function returns NaN if there are too few scores. Return infinity
       instead, because no finite limit has the guarantee
     nan-if-few 2: your function returns -infinity if there are too few scores. Return
       infinity instead, which no score exceeds
-    infinite-too-soon: your function returns infinity even if k = n. Return the largest
-      score in this case, and infinity only if k is above n
+    infinite-too-soon: your function returns infinity even if the rank of the limit is
+      n. Return the largest score in this case, and infinity only for a rank above n
     without-ties: your code removes equal scores. Keep all n scores, because each score
       has its own rank
     gaussian: your code computes the limit as for a normal distribution. Use the rank of

@@ -3,7 +3,7 @@
 The policy that the kit has trained drives the pusher; its plans arrive late. The
 student's `plan_entry` picks the actions, `push_ahead` predicts the state for which a
 plan is drawn, and `conformal_limit` and `alarm_at` watch. A slider moves the puck after
-two seconds, as a hand would, another one shifts the camera.
+two seconds, as a person could do, another one shifts the camera.
 """
 
 from functools import cache

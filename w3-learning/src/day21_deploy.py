@@ -148,10 +148,11 @@ def alarm_at(score: np.ndarray, limit: float, ticks: int) -> int:
 
 
 def lag_behind(v: float, stiffness: float, inertia: float) -> float:
-    """Return how far a spring trails its set point, which moves at v, in metres.
+    """Return the lag of a sphere behind its set point, which moves at v, in metres.
 
-    The spring has the stiffness K, N/m, and moves the inertia Lambda, kg. Its damper is
-    critical, D = 2 sqrt(K Lambda), and acts on the absolute velocity. All has settled.
+    A spring with the stiffness K, N/m, moves the hand, whose inertia is Lambda, kg. The
+    damper is critical, D = 2 sqrt(K Lambda), and acts on the absolute velocity. The lag
+    has become constant.
     lag_behind(1, 1, 4) -> 4
     """
     # region 21.7
@@ -263,7 +264,7 @@ def angle_after(parts: int) -> float:
 
 
 def check_push(lab: Lab) -> None:
-    """Check the entries of a plan, and compare a push with Day 15's closed form."""
+    """Check the rows of a plan, and compare a push with Day 15's closed form."""
     plan = np.arange(6.0).reshape(3, 2)
     rows = [plan_entry(plan, 7, now)[0] / 2 for now in range(7, 12)]
     lab.check("plan_entry: the rows", np.subtract(rows, [0, 1, 2, 2, 2]))
@@ -362,8 +363,8 @@ class Late:
 
 
 WAYS = {
-    "first": "run from its first entry",
-    "indexed": "run from the entry for now",
+    "first": "run from its first row",
+    "indexed": "run from the row for now",
     "ahead": "drawn for the predicted state",
 }
 
@@ -395,7 +396,7 @@ def late_plans(lab: Lab, policy, start: np.ndarray) -> None:
         lab.measured(f"late plans run from {row}, pucks of {len(start)}", home)
     gain = np.sum(found[LATE, "ahead"]) - np.sum(found[LATE, "first"])
     lab.record("late", gain, metric="starts",
-               label="predicted state minus first entry, pucks")  # fmt: skip
+               label="predicted state minus first row, pucks")  # fmt: skip
 
 
 def check_guard(lab: Lab) -> None:
@@ -535,7 +536,7 @@ def main() -> int:
     lab.step("3. Ranks and alarms")
     check_guard(lab)
 
-    lab.step("4. A spring trails behind")
+    lab.step("4. The lag of the sphere")
     check_spring(lab)
     spring(lab, fns)
     check_league(lab)
