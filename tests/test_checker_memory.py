@@ -74,6 +74,8 @@ def test_a_folder_that_cannot_be_written_costs_the_memory_alone(tmp_path):
 
 
 def test_what_was_said_of_a_mistake_is_a_sentence_and_not_the_results_name():
-    assert memory._sentence("sigma: Off by 2. Look again.") == "sigma: Off by 2."
-    assert memory._sentence("It is wrong. (Off by 3.)") == "It is wrong. (Off by 3.)"
-    assert memory._sentence("It is wrong. Off by 3.") == "It is wrong."
+    assert memory.first_sentence("sigma: Off by 2. Look again.") == "sigma: Off by 2."
+    assert (
+        memory.first_sentence("It is wrong. (Off by 3.)") == "It is wrong. (Off by 3.)"
+    )
+    assert memory.first_sentence("It is wrong. Off by 3.") == "It is wrong."

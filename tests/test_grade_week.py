@@ -1,14 +1,23 @@
 """Grading several days: one table for a learning platform, one page, a folder a day."""
 
 import csv
+import html
 import io
 import re
 import shutil
+from pathlib import Path
 
 import pytest
+from test_report import MEASURE
+from test_week import titles
 
 from conftest import ROOT, copy_kit, keep_first_day, run_copy
 from labkit.commands import grade as command
+from labkit.grade import page
+from labkit.grade.course import Course, GradedStudent
+from labkit.grade.result import ungraded
+from labkit.grade.roster import Student
+from labkit.lesson.day import all_days
 from robo47.errors import Robo47Error
 
 pytestmark = pytest.mark.kit
@@ -128,3 +137,27 @@ def test_the_same_command_grades_nothing_twice(graded, run):
 def test_days_that_are_none_are_refused_in_a_line(day, says):
     with pytest.raises(Robo47Error, match=says):
         command.chosen(day)
+
+
+# The number of pairs of words in a card of which one covers a part of the other.
+OVERLAPS = """(() => {{
+  const all = [...d.querySelectorAll('.card span, .card text')]
+    .filter(e => !e.querySelector('*')).map(e => e.getBoundingClientRect());
+  return all.filter((a, i) => all.slice(i + 1).some(b =>
+    a.left < b.right - 1 && b.left < a.right - 1 &&
+    a.top < b.bottom - 1 && b.top < a.bottom - 1)).length; }})()"""
+
+
+@pytest.mark.browser
+def test_no_words_overlap_on_the_page_of_all_days(tmp_path, chromium):
+    one = Student("Ada", "ada", Path())
+    courses = [
+        Course(day, [GradedStudent(one, ungraded(day, "")) for _ in range(20)])
+        for day in all_days()
+    ]
+    text = html.escape(page.render_days(courses))
+    harness = MEASURE.replace("d.documentElement.scrollWidth", OVERLAPS)
+    pages = [harness.format(width=width, page=text) for width in (390, 950, 1280)]
+    for found in titles(chromium, tmp_path, *pages):
+        *_, overlaps, too_wide, _, _, made = found.split()
+        assert (overlaps, too_wide, made) == ("0", "0", "0")

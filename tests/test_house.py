@@ -33,10 +33,7 @@ FLOORS = [
     "labkit.commands",
 ]
 # Names that labs and handouts have typed: three lines each. `was` has a line for each.
-FACES = {
-    f"robo47/{name}.py"
-    for name in ("cli", "metrics", "student_functions", "lesson/lab", "was")
-}
+FACES = {f"robo47/{name}.py" for name in ("cli", "metrics", "lesson/lab", "was")}
 TAUGHT = [
     *("se3", "kinematics", "screws", "jacobian", "dynamics", "control", "task_space"),
     *("trajectory", "lifting", "identification", "rotation_log", "orientation", "dh"),

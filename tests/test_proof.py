@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from test_report import measured
 
 pytest.importorskip("viser", reason="the extra view")
 
@@ -21,11 +22,11 @@ from labkit.commands import grade
 from labkit.commands import proof as command
 from labkit.figures import client
 from labkit.grade.roster import Student
-from labkit.lesson.day import find_day
+from labkit.lesson.day import days_of, find_day
 from labkit.lesson.week import find_week
 from labkit.lesson.writers import Writers, file_mark
 from labkit.proof import card, facts, page
-from labkit.proof.capstone import Attempt, attempt
+from labkit.proof.capstone import NO_CAPSTONE, Attempt, attempt
 from labkit.report.series import Series
 from labkit.sandbox.sandbox import Sandbox
 from robo47 import capstone
@@ -125,6 +126,21 @@ def test_a_whole_copy_of_the_kits_file_is_the_kits_and_not_theirs(tmp_path, sand
         found = facts.facts_of(day, someone, tmp_path / "files", sandbox)
         assert set(found.states.values()) == {"the kit's own file"}
         assert (found.own, found.again) == ([], {})
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("number", [1, 2, 3])
+def test_its_tables_need_no_scrolling_on_a_phone(number, tmp_path, chromium):
+    days = []
+    for day in days_of(find_week(number)):
+        numbers = [Series(day.number, one, Writers(own=set())) for one in day.metrics]
+        again = {(m.check, m.metric): m.max or m.min or 0.0 for m in day.metrics}
+        days.append(
+            facts.RunDay(day, {task.id: "passed" for task in day.tasks}, numbers, again)
+        )
+    proof = page.Proof("Ada", True, "", days, NO_CAPSTONE)
+    _, _, beyond, *_ = measured(chromium, tmp_path, page.render(proof), 390, "tr > *")
+    assert beyond == "0"
 
 
 def hostile():
@@ -356,7 +372,7 @@ def test_a_class_gets_a_page_each_and_a_lost_folder_a_reason(tmp_path, capsys):
     assert without[0].startswith("Bob: ")
     assert "nothing is begun" in " ".join(without)
     text = (tmp_path / "proof" / "ada.html").read_text("utf-8")
-    assert "Ada -x: week 1" in text
+    assert "Ada -x, Week 1" in text
     words = Seen(text).words
     assert "a teacher's kit" in words
     assert "None of the functions that move the arm is the student's yet." in words

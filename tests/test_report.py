@@ -6,14 +6,17 @@ import re
 import subprocess
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import pytest
 
 from conftest import ROOT, need
 from labkit.base import html as pages
+from labkit.check import memory
 from labkit.check.memory import Entry
-from labkit.lesson.day import all_days, find_day
+from labkit.commands import report as report_command
+from labkit.lesson.day import Day, all_days, find_day
 from labkit.lesson.metric import Metric
 from labkit.log.rows import HEADER as LINE
 from labkit.log.rows import checked_row, encode
@@ -433,6 +436,37 @@ def test_the_days_need_no_scrolling_on_a_phone(chromium, tmp_path):
     text = pages.page("robo47", "", table, style=overview.STYLE)
     _, _, beyond, *_ = measured(chromium, tmp_path, text, 390, "tr > *")
     assert beyond == "0"
+
+
+@pytest.mark.browser
+def test_the_labels_of_the_margins_are_whole_on_a_phone(chromium, tmp_path):
+    limit = Metric("c", "m", max=1e-3)
+    bar = overview.Bar(of_values("m", 1e-6, limit=limit), 1e-6, "pass")
+    bars = [bar._replace(series=dataclasses.replace(bar.series, day=47))]
+    text = pages.page("robo47", "", overview.margins(bars), style=overview.STYLE)
+    outside = """[...d.querySelectorAll('svg text')].filter(e =>
+      e.getBoundingClientRect().left <
+      e.closest('svg').getBoundingClientRect().left).length"""
+    harness = MEASURE.replace("d.documentElement.scrollWidth", outside)
+    harness = harness.format(width=390, page=html.escape(text))
+    found = re.search(r"<title>robo47 (\d+)", dom(chromium, tmp_path, harness))
+    assert found is not None
+    assert found[1] == "0"
+
+
+def test_several_days_without_a_check_are_told_in_one_line(capsys, monkeypatch):
+    states = {1: {}, 2: {"2.1": "passed"}, 3: {}, 4: {"4.1": "wrong"}, 5: {}}
+    days = [
+        dataclasses.replace(find_day(i), tasks=find_day(i).tasks[:1]) for i in states
+    ]
+    here = SimpleNamespace(is_file=lambda: True)
+    monkeypatch.setattr(Day, "work", here)
+    monkeypatch.setattr(memory, "task_states", lambda day: states[day.number])
+    report_command.tell(Report([]), days)
+    assert capsys.readouterr().out.splitlines() == [
+        "days 1, 3 and 5: Not checked in this version: make check DAY=1, and so on.",
+        "day 4: The last check: 0 of 1 tasks pass; 4.1 wrong.",
+    ]
 
 
 def test_a_counter_of_nothing_is_left_out_but_for_what_passes(log):

@@ -277,6 +277,6 @@ class TestTheEndOfAWeek:
 
 
 def test_no_two_days_give_two_functions_one_name():
-    """`robo47.student_functions` puts all days' functions into one namespace."""
+    """`labkit.check.own_functions` puts all days' functions into one namespace."""
     names = [f for day in all_days() for task in day.tasks for f in task.functions]
     assert sorted(names) == sorted(set(names))

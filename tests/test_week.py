@@ -438,7 +438,7 @@ def test_an_edit_after_the_run_makes_every_number_of_the_day_stale(run_in, kit, 
     said = run_in(REPORT)
     assert "checks: 0 passing, 0 failing" in said.stdout
     told = " ".join(said.stdout.split())
-    assert "day 1: Not checked as it is now: make check DAY=1" in told
+    assert "day 1: Not checked in this version: make check DAY=1" in told
     assert "2 numbers from before your file changed: make run DAY=1" in told
     for page in ("report.html", "report-week1.html"):
         text = (kit / "metrics" / page).read_text("utf-8")

@@ -91,7 +91,7 @@ def _regions(day: Day) -> Iterator[str]:
 
 
 def _names(day: Day) -> Iterator[str]:
-    """Yield the functions that another day has too: `student_functions` holds all."""
+    """Yield the functions that another day has too: `own_functions` holds all."""
     own = {name for task in day.tasks for name in task.functions}
     for other in all_days():
         if other.number != day.number:

@@ -13,12 +13,11 @@ import warnings
 from collections.abc import Callable, Iterator
 from typing import Any
 
-import numpy as np
-
 from labkit.base.quiet import nothing_printed
 from labkit.judge.ask import as_plain
 from labkit.judge.draw import Draw
 from labkit.judge.row import ANY_SIZE, Row, rows_of
+from labkit.judge.unusual import size_of
 from labkit.lesson.day import Day
 from labkit.lesson.lab_module import load_lab
 
@@ -86,21 +85,6 @@ def _recorded(function: Callable[..., Any], found: dict[str, list[float]]) -> An
         return function(*args, **named)
 
     return called
-
-
-def size_of(value: Any) -> float:
-    """Return the size of a number, or of an array's largest entry; 0 of anything else.
-
-    The entries of a rotation, or of a pose, say nothing by their size.
-    """
-    if isinstance(value, bool | np.bool_ | str) or value is None:
-        return 0.0
-    if not isinstance(value, int | float | np.ndarray | np.number):
-        return 0.0
-    some = np.asarray(value)
-    if some.dtype.kind not in "fiu" or not some.size or not np.isfinite(some).all():
-        return 0.0
-    return float(np.abs(some).max())
 
 
 def _of_questions(row: Row, argument: str) -> Range | None:

@@ -24,7 +24,7 @@ h1 { margin: 0; font-size: 28px; letter-spacing: -.01em; }
 h2 { margin: 36px 0 12px; font-size: 19px; }
 p { margin: 4px 0; } .jumps { margin-top: 14px; } .muted { color: var(--muted); }
 .tiles { display: grid; gap: 12px; margin-top: 20px;
-  grid-template-columns: repeat(auto-fill, minmax(130px, 1fr)); }
+  grid-template-columns: repeat(auto-fit, minmax(130px, 1fr)); }
 .tile, .card { background: var(--card); border: 1px solid var(--grid);
   border-radius: 12px; padding: 14px 16px; }
 .tile b { display: block; font-size: 26px; line-height: 1.2; }

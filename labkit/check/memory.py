@@ -116,7 +116,7 @@ def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:
         verdict = result.verdict
         # A failure that follows from another task is no mistake of its own.
         mistake = "" if verdict.follows else verdict.mistake
-        says = _sentence(verdict.message) if mistake else ""
+        says = first_sentence(verdict.message) if mistake else ""
         now = Entry(result.task.id, verdict.status, mistake, says)
         if known is None or known._replace(says=says) != now:
             lines.append(json.dumps(now))
@@ -179,7 +179,7 @@ def _entry(memory: dict[str, Any], key: str) -> dict[str, str]:
     return found if isinstance(found, dict) else {}
 
 
-def _sentence(message: str) -> str:
+def first_sentence(message: str) -> str:
     """Return the first sentence of a message, at most 200 characters of it.
 
     A name in front of it, "sigma: Off by 2.", is none yet.

@@ -137,7 +137,7 @@ def last_check(day: Day) -> str:
         return f"Not begun: make start DAY={day.number}"
     known = memory.task_states(day)
     if any(task.id not in known for task in day.tasks):
-        return f"Not checked as it is now: make check DAY={day.number}."
+        return f"Not checked in this version: make check DAY={day.number}."
     left = [f"{t.id} {known[t.id]}" for t in day.tasks if known[t.id] != "passed"]
     of = len(day.tasks)
     passed = f"The last check: {of - len(left)} of {of} tasks pass"
@@ -146,12 +146,18 @@ def last_check(day: Day) -> str:
 
 def tell(report: Report, days: list[Day]) -> None:
     """Say which of the begun days need a run or a check of the file as it is."""
-    for day in days:
-        if not day.work.is_file():
-            continue
-        found = memory.task_states(day)
+    begun = [day for day in days if day.work.is_file()]
+    known = {day.number: memory.task_states(day) for day in begun}
+    unchecked = [str(day.number) for day in begun if not known[day.number]]
+    if len(unchecked) > 1:  # one sentence for all of them
+        *some, last = unchecked
+        which = f"days {', '.join(some)} and {last}: Not checked in this version:"
+        print(cli.wrapped(f"{which} make check DAY={some[0]}, and so on.", "  "))
+    for day in begun:
+        found = known[day.number]
         done = all(found.get(t.id) == "passed" for t in day.tasks if not t.optional)
-        says = [] if done else [last_check(day)]
+        told = done or (len(unchecked) > 1 and not found)
+        says = [] if told else [last_check(day)]
         own = [one for one in report.series if one.day == day.number]
         if stale := sum(one.status == "stale" for one in own):
             old = f"{count(stale, 'number')} from before your file changed"

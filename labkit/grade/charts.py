@@ -1,7 +1,8 @@
 """Looks of the class's page: colours, marks, and bars as inline SVG of any width.
 
-Widths are in per cent and texts in pixels, so a chart on a phone has shorter bars and
-not smaller letters. No script is needed.
+The words of a row are HTML above its bar, so a long label takes a second line and does
+not overlap the words at the right. Widths are in per cent, so a chart on a phone has
+shorter bars and not smaller letters. No script is needed.
 """
 
 from collections.abc import Iterable, Sequence
@@ -28,7 +29,9 @@ body { max-width: 1080px; } .none { color: var(--muted); }
 .two { display: grid; gap: 16px; align-items: start;
   grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); }
 .card h3 { margin: 0 0 4px; font-size: 16px; } .card > .muted { margin-bottom: 12px; }
-svg.bars { overflow: visible; font-size: 13px; margin-top: 12px; }
+.bar { margin-top: 9px; font-size: 13px; }
+.bar p { display: flex; gap: 12px; justify-content: space-between; align-items: end;
+  margin: 0 0 4px; } .bar p .muted { flex: none; }
 .legend span { margin-right: 14px; white-space: nowrap; font-size: 13px; }
 .legend i { display: inline-block; width: 10px; height: 10px; margin-right: 5px;
   border-radius: 2px; }
@@ -43,14 +46,13 @@ td.mark, th.mark { text-align: center; padding-right: 8px; }
 .all { max-height: 80vh; overflow: auto; } .all tr:first-child th { position: sticky;
   top: -14px; background: var(--card); z-index: 1; }
 .all td:first-child { position: sticky; left: -16px; background: var(--card); }
-.wider, .narrow { display: none; }
+.wider { display: none; }
 @media (max-width: 560px) { li .head > .muted { margin-left: 0; flex-basis: 100%; }
-  .wider { display: block; } .wide { display: none; } .narrow { display: inline; }
+  .wider { display: block; }
   td:first-child { max-width: 130px; overflow: hidden; text-overflow: ellipsis; } }
 h2 small { color: var(--muted); font-weight: 400; }
 """
-LINE, TEXT, BAR = 40, 13, 12  # pixels: a row's height, a letter's, a bar's
-FITS = 28  # letters of a label on a phone, where the words at the right need room too
+BAR = 12  # the height of a bar in pixels
 
 
 @dataclass(frozen=True)
@@ -65,29 +67,14 @@ class Row:
 
 
 def chart(rows: Sequence[Row], about: str) -> str:
-    """Return a chart as SVG.
+    """Return a chart as HTML: a list of labelled bars.
 
     Args:
         rows: from top to bottom.
         about: what it shows, for those who cannot see it.
     """
-    body = "".join(_row(row, i * LINE) for i, row in enumerate(rows))
-    return (
-        f'<svg class="bars" height="{len(rows) * LINE}" role="img"'
-        f' aria-label="{escape(about)}">{body}</svg>'
-    )
-
-
-def _labels(label: str, base: int) -> list[str]:
-    """Return a label, and for a phone a short one where it is long."""
-    ways = {"": label}
-    if len(label) > FITS:
-        short = label[: FITS - 1].rstrip(" ,:") + "…"
-        ways = {' class="wide"': label, ' class="narrow"': short}
-    return [
-        f'<text x="0" y="{base}" fill="var(--ink)"{kind}>{escape(text)}</text>'
-        for kind, text in ways.items()
-    ]
+    body = "".join(map(_row, rows))
+    return f'<div role="list" aria-label="{escape(about)}">{body}</div>'
 
 
 def legend(words: Iterable[tuple[str, str]]) -> str:
@@ -105,23 +92,20 @@ def colour(role: str) -> str:
     return f"var(--bar-{role})" if own else f"var(--{role})"
 
 
-def _row(row: Row, top: int) -> str:
-    base = top + TEXT
-    bar = top + TEXT + 7
-    shapes = [
-        *_labels(row.label, base),
-        f'<text x="100%" y="{base}" text-anchor="end" fill="var(--muted)">'
-        f"{escape(row.words)}</text>",
-        f'<rect x="0" y="{bar}" width="100%" height="{BAR}" fill="var(--grid)"/>',
-    ]
+def _row(row: Row) -> str:
+    shapes = [f'<rect width="100%" height="{BAR}" fill="var(--grid)"/>']
     start = 0.0
     for role, number in row.parts:
         share = 100 * number / max(1, row.whole)
         if number:
             shapes.append(
-                f'<rect x="{start:.2f}%" y="{bar}" width="{share:.2f}%" height="{BAR}"'
+                f'<rect x="{start:.2f}%" width="{share:.2f}%" height="{BAR}"'
                 f' fill="{colour(role)}" stroke="var(--card)">'
                 f"<title>{escape(row.label)}: {number}</title></rect>"
             )
         start += share
-    return "".join(shapes)
+    return (
+        f'<div role="listitem" class="bar"><p><span>{escape(row.label)}</span>'
+        f'<span class="muted">{escape(row.words)}</span></p>'
+        f'<svg height="{BAR}" aria-hidden="true">{"".join(shapes)}</svg></div>'
+    )

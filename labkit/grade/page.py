@@ -8,6 +8,7 @@ from urllib.parse import quote
 
 from labkit.base import html
 from labkit.base.text import count, visible
+from labkit.check.memory import first_sentence
 from labkit.grade.charts import STATUS, STYLE, Row, chart, legend
 from labkit.grade.course import UNKNOWN, Course, GradedStudent, by_student, percent
 from labkit.grade.result import Mark
@@ -36,23 +37,26 @@ ROLES = {  # colours of the states, in the order to list them
 }
 NUMBERS = "td.n, th.n { text-align: right; }\n"
 _ALIKE = (
-    "A hint of where to look, not a "
-    "verdict: friends who learn together and a good book also write alike. The "
-    "starter's text and what much of the class writes are left out; names do not "
-    "count. The number is that of the two most similar; beside the kit's solution, "
-    "the share of one's own code that stands in it, or of its functions in one's own."
+    "These groups are a hint where to look and no verdict, because friends who learn "
+    "together and readers of one book also write similar code. The comparison ignores "
+    "names, the text of the starter, and code that much of the class has written. The "
+    "percentage belongs to the two most similar submissions. Next to the kit's "
+    "solution, it is the fraction of the student's own code that the solution "
+    "contains, or of the solution's functions that the student's code contains."
 )
 _GROUPS = '<a href="#alike">groups alike</a>: no verdict'
 _HIDDEN = (
-    "In an ordinary file each function that a task asks for has its def. Here tasks "
-    "pass without one, beside what runs a text as code, or beside long text constants "
-    "that could be code: look at the file, and ask."
+    "An ordinary file has a def for each function of a task. In these files, a task "
+    "passes without one, or next to code that executes a text, or next to long text "
+    "constants that could be code. Read the file, and ask the student."
 )
 _COUNTED = (
     "Each mistake is counted once per student, in the task where it was made. A full "
     "bar is the whole class. Mistakes without a name come last."
 )
-_REFUSED = "A task needs only its arguments. Most of these are accidents: ask."
+_REFUSED = (
+    "A task needs only its arguments. Most of these are accidents: ask the student."
+)
 
 
 def render(course: Course) -> str:
@@ -244,7 +248,9 @@ def _ago(graded: GradedStudent) -> str:
     unit, length = next((u for u in units if size >= 2 * u[1]), units[-1])
     side = "after" if graded.minutes < 0 else "before"
     moment = "grading" if graded.late is None else "the deadline"
-    return f"last commit {size // length} {unit} {side} {moment}, they say"
+    return (
+        f"last commit {size // length} {unit} {side} {moment}, by the student's clock"
+    )
 
 
 def _similar(course: Course) -> str:
@@ -341,13 +347,14 @@ def _days(courses: Sequence[Course]) -> str:
         parts = [(role, counts[where]) for where, role in ROLES.items()]
         words = f"{counts['done']:,} of {size:,} done"
         bars.append(Row(f"{course.day.number}  {course.day.title}", words, parts, size))
-        common = ", ".join(
-            f"{escape(mark.id)} <b>{escape(_name_of(mark.mistake))}</b> ({len(who)})"
+        common = "".join(
+            f"<p>{escape(mark.id)} <b>{escape(_name_of(mark.mistake))}</b> ({len(who)})"
+            f' <span class="muted">{escape(first_sentence(mark.message))}</span></p>'
             for mark, who in course.mistakes()[:COMMON]
         )
         if common:
             head = f'<div class="head">{_link(course, "Day ")}</div>'
-            mistakes += f"<li>{head}<p>{common}</p></li>"
+            mistakes += f"<li>{head}{common}</li>"
         else:
             without.append(_link(course))
     if without:
@@ -372,6 +379,6 @@ def _link(course: Course, what: str = "") -> str:
 def _cell(one: GradedStudent) -> str:
     passed = one.result.score[0]
     all_ = len(one.result.tasks)
-    words = f"{passed} of {all_}" if percent(one) else "?"
+    words = f"{passed}/{all_}" if percent(one) else "?"
     role = ROLES[one.state] if one.state != "under way" else ""
     return f'<td class="n {role}" title="{escape(one.state)}">{words}</td>'

@@ -101,11 +101,20 @@ class Sketch:
         )  # fmt: skip
 
     def disc(
-        self, radius: float, height: float, colour: Colour = "grey"
+        self,
+        radius: float,
+        height: float,
+        colour: Colour = "grey",
+        opacity: float | None = None,
     ) -> viser.CylinderHandle:
         """Draw an upright cylinder, metres; setting `position` moves its middle."""
         return self.server.scene.add_cylinder(
-            self.path(), radius, height, rgb(colour), radial_segments=48
+            self.path(),
+            radius,
+            height,
+            rgb(colour),
+            radial_segments=48,
+            opacity=opacity,
         )
 
     def box(

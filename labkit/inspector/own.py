@@ -249,9 +249,8 @@ def _as_drawn(value: Any) -> Any:
 def week(library: Mapping[str, Callable[..., Any]]) -> Iterator[SimpleNamespace]:
     """Yield those functions, the student's of all days where they pass `make check`.
 
-    `yours` counts them. As `student_functions`, which loads the files into the
-    process that
-    asks: here each day's file is in a sandbox of its own.
+    `yours` counts them. `labkit.check.own_functions` does the same, but it loads the
+    files into the process that asks; here each day's file is in a sandbox of its own.
     """
     fns = SimpleNamespace(**library)
     fns.yours = 0

@@ -61,7 +61,7 @@ def _unusual(sizes: Sequence[float], ranges: Sequence[Range]) -> Iterator[Unusua
 
 
 def _rows(calls: Sequence[Exchange]) -> list[list[float]]:
-    return [[*map(_size, map(as_plain, one.question.args))] for one in calls]
+    return [[*map(size_of, map(as_plain, one.question.args))] for one in calls]
 
 
 def _columns(calls: Sequence[Exchange]) -> list[tuple[float, ...]]:
@@ -74,7 +74,7 @@ def _range(sizes: Sequence[float]) -> Range:
     return min(some), max(some)
 
 
-def _size(value: Any) -> float:
+def size_of(value: Any) -> float:
     """Return the size of a number, or of an array's largest entry; 0 of others."""
     if not isinstance(value, int | float | np.ndarray | np.number):
         return 0.0

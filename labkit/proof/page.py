@@ -32,23 +32,26 @@ body { max-width: 980px; } td.n, th.n { text-align: right; }
 td.wide { white-space: normal; min-width: 140px; }
 iframe { display: block; width: 100%; height: min(70vh, 560px); border: 0; }
 .film { padding: 0; overflow: hidden; margin-bottom: 12px; } li { margin: 4px 0; }
-@media (max-width: 500px) { th, td { padding-right: 8px; } .card { padding: 10px; }
+@media (max-width: 500px) { .card { padding: 10px; }
+  th, td { padding-right: 8px; white-space: normal; overflow-wrap: normal; }
+  td.wide { min-width: 120px; overflow-wrap: anywhere; }
   .film { padding: 0; } iframe { height: 420px; } }
 """
 WORTH = {
-    "pass": ("pass", "by the file as it is"),
+    "pass": ("pass", "by the present file"),
     "fail": ("fail", "beyond its limit"),
-    "none": ("none", "no row of their own in the log"),
-    "kit": ("none", "no row of their own in the log"),
-    "stale": ("none", "the file changed since"),
-    "unsigned": ("none", "by no file that is named"),
+    "none": ("none", "not in the student's log"),
+    "kit": ("none", "not in the student's log"),
+    "stale": ("none", "the file has changed since"),
+    "unsigned": ("none", "by an unknown file"),
     "borrowed": ("none", "partly borrowed"),
 }
 NOT_PROVED = (
-    "Who wrote the code. A name in git is what somebody typed; commit times are, too.",
-    "That it was understood. Ask why; the worksheets hold the drawings and the words.",
-    "That a real arm would do it. This one is a simulation, and its model is known.",
-    "That this page is as the kit wrote it. Run the commit yourself: make fresh.",
+    "Who wrote the code. Anyone can set the name and the time of a commit.",
+    "That the student understood it. Ask for explanations; the worksheets contain the"
+    " drawings and the answers.",
+    "That a real arm would succeed. The arm is a simulation with a known model.",
+    "That nobody has edited this page. Run the commit yourself: make fresh.",
 )
 
 
@@ -79,7 +82,7 @@ def render(proof: Proof, card_name: str = "") -> str:
     nonce = secrets.token_urlsafe(16)
     place = f"film {nonce}"
     week = proof.days[0].day.week.heading
-    heading = f"{proof.name}: {week[0].lower()}{week[1:]}" if proof.name else week
+    heading = f"{proof.name}, {week}" if proof.name else week
     title = escape(heading)
     who = "the student's own kit" if proof.own else "a teacher's kit"
     not_proved = "".join(f"<li>{escape(line)}</li>" for line in NOT_PROVED)
@@ -202,7 +205,9 @@ def _capstone(attempt: Attempt, place: str) -> str:
         return html.section(heading, f"<p>{words}</p>")
     told = attempt.capstone.summary(attempt.result)
     by = _by(attempt.capstone.USES, attempt)
-    words = escape(f"{told.came} {whose}. {told.way} Drag to turn it.")
+    words = escape(
+        f"{told.came} {whose}. {told.way} Drag the picture to rotate the view."
+    )
     player = (
         f'<iframe title="{heading} in 3D" sandbox="allow-scripts" srcdoc="{place}">'
     )
@@ -353,11 +358,12 @@ def _commit(proof: Proof) -> str:
         words.append(f"<p>{escape('; '.join(left))}.</p>")
     else:
         words.append(
-            "<p>It holds all files of the days that were begun, as they ran here.</p>"
+            "<p>It contains all files of the days that were begun, as they ran"
+            " here.</p>"
         )
     found, mood = _fresh(proof)
     if mood == "none":
-        words.append("<p>No fresh clone of it was run: <code>make fresh</code>.</p>")
+        words.append("<p>It was not run in a fresh clone: <code>make fresh</code>.</p>")
     else:
         lacks = proof.fresh.get("missing")
         things = f"; {count(lacks, 'thing')} of the hand-in missing" if lacks else ""

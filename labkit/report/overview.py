@@ -42,7 +42,7 @@ td.wide { white-space: normal; min-width: 160px; }
 """
 )
 ATTEMPTS = 60  # the most dots of a day
-WIDTH, LEFT, RIGHT = 720, 76, 712
+WIDTH, LEFT, RIGHT = 720, 84, 712
 PITCH = 11  # pixels, from one bar to the next
 GAP = 9  # pixels, between two days
 DECADES = 4.0  # to the right of the limit, at least
@@ -70,8 +70,9 @@ def days_table(days: Sequence[OwnDay], journal: Sequence[Entry]) -> str:
     rows = [_day(one, journal) for one in days if one.day.work.is_file()]
     head = "<th>day</th><th>tasks</th><th>attempts, oldest first</th><th>hints</th>"
     about = (
-        '<p class="muted">A square is a task, green if it passes in your file as it is'
-        " now. A dot is a new verdict of <code>make check</code> on a task.</p>"
+        '<p class="muted">A square is a task. It is green if the task passes with the'
+        " present version of your file. A dot is a new verdict of"
+        " <code>make check</code> on a task.</p>"
     )
     return html.section("The days", about, html.table(head, rows)) if rows else ""
 
@@ -82,7 +83,7 @@ def _day(one: OwnDay, journal: Sequence[Entry]) -> str:
         for task in one.day.tasks
     ]
     tasks = "".join(
-        _mark(state, words + (state or "not checked as it is now"))
+        _mark(state, words + (state or "not checked in this version"))
         for state, words in squares
     )
     ids = {task.id for task in one.day.tasks}

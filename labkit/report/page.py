@@ -8,6 +8,7 @@ from labkit.base import html
 from labkit.base.text import count
 from labkit.check.memory import Entry
 from labkit.hunt.tally import tally
+from labkit.lesson.day import all_days
 from labkit.log.rows import Row
 from labkit.log.scan import Line
 from labkit.report import overview, plot, prediction_plot
@@ -127,6 +128,12 @@ def _title(day: int | None) -> str:
     return "No day" if day is None else f"Day {day}"
 
 
+def _heading(day: int | None) -> str:
+    """Return "Day 5: Control of the joints", without a title for an unknown day."""
+    titles = {one.number: f": {escape(one.title)}" for one in all_days()}
+    return _title(day) + titles.get(day or 0, "")
+
+
 def _jumps(report: Report) -> str:
     """Return a link to each day, where there are several."""
     days = dict.fromkeys(series.day for series in report.series)
@@ -149,7 +156,7 @@ def _day(day: int | None, series: Iterable[Series], checked: str, sheet: str) ->
     title = f"Every run of {count(len(numbers), 'number')}"
     plots = f'<div class="cards">{"".join(map(_card, numbers))}</div>'
     return html.section(
-        _title(day),
+        _heading(day),
         about,
         foreseen and f'<div class="cards">{foreseen}</div>',
         html.folded(title, plots, opened=any(n.status == "fail" for n in numbers)),

@@ -63,8 +63,8 @@ def summary(result: Result) -> Summary:
         else f"The arm stops: {result.stopped}.",
         way=f"It goes around the puck on the {side}. The camera is at most"
         f" {result.seen_mm:.1f} mm off, and the sphere at most {result.lag_mm:.1f} mm"
-        " from its set point. This was one simulator, one puck, and one displacement"
-        " of the puck.",
+        " from its set point. The test had one simulator, one puck, and one"
+        " displacement of the puck.",
         figures=figures(result),
     )
 

@@ -24,7 +24,7 @@ import day15_mujoco
 LAB = lab_of(find_day(16))  # its seeds, its numbers of rows and units
 CIRCLE = np.linspace(0, 2 * np.pi, 40)
 RING = np.column_stack([np.cos(CIRCLE), np.sin(CIRCLE), 0 * CIRCLE])
-UP = day15_mujoco.PUCK  # m, the height of both centres above the table
+UP = 0.02  # m, the height of the puck; the plans are drawn above it
 OLD = 3  # older plans that are drawn
 
 
@@ -37,8 +37,8 @@ class Seen(NamedTuple):
 
 
 def above(points: Array) -> Array:
-    """Return points of the plane at the height of the centres, (n, 3)."""
-    return np.column_stack([points, np.full(len(points), UP)])
+    """Return points of the plane above the puck, (n, 3)."""
+    return np.column_stack([points, np.full(len(points), 1.1 * UP)])
 
 
 @cache
@@ -68,8 +68,8 @@ class Plans(ui.Played):
     best = ui.scene.lines(ui.NOWHERE, "white", legend="the pusher by the library")
     old = ui.yours.lines(ui.NOWHERE, "blue", legend="older plans")
     beads = ui.yours.lines(ui.NOWHERE, "purple", legend="the newest plan")
-    puck = ui.yours.sphere(np.zeros(3), day15_mujoco.PUCK, "orange", 0.6, legend="puck")
-    pusher = ui.yours.sphere(np.zeros(3), day15_mujoco.PUSHER, "red", legend="pusher")
+    puck = ui.yours.disc(day15_mujoco.PUCK, UP, "orange", 0.6, legend="puck")
+    pusher = ui.yours.disc(day15_mujoco.PUSHER, 3 * UP, "grey", legend="pusher")
 
     def ask(self, fns, at) -> Seen:
         given = (np.array([[one]]) for one in (at.mu, at.logvar, at.noise))
@@ -104,8 +104,8 @@ class Plans(ui.Played):
 
     def frame(self, seconds: float) -> bool:
         one, k = self.seen.run.moment(seconds)
-        self.pusher.position = np.array([*one[:2], UP])
-        self.puck.position = np.array([*one[2:], UP])
+        self.pusher.position = np.array([*one[:2], 1.5 * UP])
+        self.puck.position = np.array([*one[2:], UP / 2])
         self.beads.points = joined(above(self.seen.plans[k]))
         older = [
             joined(above(self.seen.plans[i])) for i in range(max(0, k - OLD), max(k, 1))

@@ -21,7 +21,7 @@ from robo47.checks import Array
 
 LAB = lab_of(find_day(17))
 PLANS = 30
-UP = push.PUCK  # m, the height of both centres above the table
+UP = 0.02  # m, the height of the puck; the plans are drawn above it
 SECONDS = 0.3  # that a step is seen
 AWAY = 0.18  # m from the pusher to the puck
 
@@ -46,7 +46,7 @@ class Drawn(NamedTuple):
         """Positions of the pusher, m, (steps + 1, n, 9, 3)."""
         moved = push.TICK * np.cumsum(self.stages, axis=2)
         flat = np.concatenate([np.zeros_like(moved[:, :, :1]), moved], axis=2)
-        return np.concatenate([flat, np.full((*flat.shape[:3], 1), UP)], axis=3)
+        return np.concatenate([flat, np.full((*flat.shape[:3], 1), 1.1 * UP)], axis=3)
 
     @property
     def left(self) -> int:
@@ -80,10 +80,8 @@ class Denoising(ui.Played):
     angle = ui.slider("direction of the puck", -0.6, 0.6, 0.0)
     seed = ui.slider("seed of the noise", 0, 20, 0, "", step=1)
     plot = ui.panel.plot(["abar"], y="abar of each step", height=150)
-    puck = ui.scene.sphere(np.zeros(3), push.PUCK, "orange", 0.6, legend="puck")
-    pusher = ui.scene.sphere(
-        np.array([0.0, 0.0, UP]), push.PUSHER, "red", legend="pusher"
-    )
+    puck = ui.scene.disc(push.PUCK, UP, "orange", 0.6, legend="puck")
+    pusher = ui.scene.disc(push.PUSHER, 3 * UP, "grey", legend="pusher")
     best = ui.scene.lines(ui.NOWHERE, "white", legend="plans by the library")
     plans = ui.yours.lines(ui.NOWHERE, "blue", legend="plans by your functions")
 
@@ -110,7 +108,8 @@ class Denoising(ui.Played):
 
     def show(self, yours: Drawn, right: Drawn) -> None:
         self.drawn = yours
-        self.puck.position = np.array([*self.where(self), UP])
+        self.puck.position = np.array([*self.where(self), UP / 2])
+        self.pusher.position = np.array([0.0, 0.0, 1.5 * UP])
         self.best.points = segments(right.paths[-1])
         self.plot.show(np.arange(len(yours.abars)), [yours.abars])
         self.play()

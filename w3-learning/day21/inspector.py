@@ -22,10 +22,10 @@ from robo47.pushing import guard
 LAB = lab_of(find_day(21))
 CIRCLE = np.linspace(0, 2 * np.pi, 40)
 RING = np.column_stack([np.cos(CIRCLE), np.sin(CIRCLE), 0 * CIRCLE])
-UP = push.PUCK  # m, the height of both centres above the table
+UP = 0.02  # m, the height of the puck; the plans are drawn above it
 MOVED_AT = 20  # ticks
 AWAY = 0.18  # m from home to the puck
-WAYS = ("for the predicted state", "from the first row", "from the row for now")
+WAYS = ("the predicted state", "the first row", "the row for now")
 HOWS = dict(zip(WAYS, ("ahead", "first", "indexed"), strict=True))
 
 
@@ -46,8 +46,8 @@ def usual() -> Array:
 
 
 def above(points: Array) -> Array:
-    """Return points of the plane at the height of the centres, (n, 3)."""
-    return np.column_stack([points, np.full(len(points), UP)])
+    """Return points of the plane above the puck, (n, 3)."""
+    return np.column_stack([points, np.full(len(points), 1.1 * UP)])
 
 
 class Driver(LAB.Late):
@@ -78,7 +78,7 @@ class Driver(LAB.Late):
         return action
 
 
-class Push(ui.Declared):
+class Push(ui.Played):
     """A puck that is moved in mid-push, late plans, a wrong camera and a guard."""
 
     title = "Push"
@@ -91,7 +91,7 @@ class Push(ui.Declared):
     angle = ui.slider("puck: direction", -3.1, 3.1, 2.3)
     moved = ui.slider("puck moved after 2 s", -80, 80, 60, "mm", 5)
     late = ui.slider("delay", 0, 3, 3, "ticks", 1)
-    way = ui.choice("plans are run", WAYS)
+    way = ui.choice("late plans use", WAYS)
     camera_off = ui.slider("camera shifted by", -40, 40, 0, "mm", 5)
     bars = ui.panel.bars(
         ["largest score"], 1.5, "", "novelty of the observations", "both"
@@ -99,8 +99,8 @@ class Push(ui.Declared):
     home = ui.scene.curve(push.HOME * RING, "green", legend="home")
     best = ui.scene.lines(ui.NOWHERE, "white", legend="the pusher by the library")
     beads = ui.yours.lines(ui.NOWHERE, "purple", legend="the present plan")
-    puck = ui.yours.sphere(np.zeros(3), push.PUCK, "orange", 0.6, legend="puck")
-    pusher = ui.yours.sphere(np.zeros(3), push.PUSHER, "red", legend="pusher")
+    puck = ui.yours.disc(push.PUCK, UP, "orange", 0.6, legend="puck")
+    pusher = ui.yours.disc(push.PUSHER, 3 * UP, "grey", legend="pusher")
 
     def ask(self, fns, at) -> Pushed:
         shift = np.array([0.0, 0.0, at.camera_off / 1000, 0.0])
@@ -122,20 +122,14 @@ class Push(ui.Declared):
         self.seen = yours
         self.best.points = joined(above(right.seen[:, :2]))
         self.bars.show([yours.scores.max()], [right.limit])
-        self.frame(0.0)
-        self.loop.stop()
-        if not self.emptied:
-            self.loop.start()
-
-    def begin(self) -> None:
-        """Start once the answers are there; `show` plays them."""
+        self.play()
 
     def frame(self, seconds: float) -> bool:
         last = len(self.seen.plans) - 1
         k = min(int(seconds / push.TICK), last)
         now = self.seen.seen[k]
-        self.pusher.position = np.array([*now[:2], UP])
-        self.puck.position = np.array([*now[2:], UP])
+        self.pusher.position = np.array([*now[:2], 1.5 * UP])
+        self.puck.position = np.array([*now[2:], UP / 2])
         self.beads.points = joined(above(self.seen.plans[k]))
         return k < last
 
@@ -143,8 +137,10 @@ class Push(ui.Declared):
         off = 1000 * np.linalg.norm(yours.seen[-1, 2:])
         says = f"The puck ends {off:.0f} mm from home."
         yield says, "plan_entry push_ahead"
-        when = f"at {yours.alarm * push.TICK:.1f} s" if yours.alarm >= 0 else "never"
-        says = f"The guard raises its alarm {when} (limit {yours.limit:.2f})."
+        alarm = "no alarm"
+        if yours.alarm >= 0:
+            alarm = f"an alarm at {yours.alarm * push.TICK:.1f} s"
+        says = f"The guard raises {alarm} (limit {yours.limit:.2f})."
         yield says, "conformal_limit alarm_at"
         yield "The policy was trained with the library's functions.", None
 
