@@ -167,7 +167,7 @@ class TestEntriesInAnotherOrder:
 @pytest.mark.parametrize(
     ("stops", "wrong", "says"),
     [
-        (4, {1, 2}, "in both other calls. Largest error: 1."),
+        (4, {1, 2}, "in the other two calls. Largest error: 1."),
         (3, {1, 2, 3}, "in all 3 other calls. Largest error: 1."),
         (3, {2, 3}, "in 2 of the other 3 calls. Largest error: 1."),
         (3, {3}, "in 1 of the other 3 calls. Largest error: 1."),

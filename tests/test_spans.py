@@ -40,7 +40,7 @@ def test_a_small_array_is_told_by_its_entries():
         for size in (1.0, 1e-4, 1e-5)
     )
     says = beyond(small, [usual], ["points", "step"])
-    assert "very small entries of `points`. The lab or a later task uses such" in says
+    assert "very small entries of `points`. Such entries occur in the lab or" in says
     assert says.endswith("affect the result for these entries?")
 
 
@@ -50,12 +50,12 @@ def test_a_small_array_is_told_by_its_entries():
         (
             lambda x: right(x) if abs(x) > 1e-6 else 0.0,
             "f(1e-07) returned 0; expected 2e-07.",
-            "very small values of `x`. The lab or a later task uses such values.",
+            "very small values of `x`. Such values occur in the lab or in a later task.",
         ),
         (
             lambda x: min(right(x), 1e6),
             "f(1e7) returned 1e+06; expected 1e+07.",
-            "very large values of `x`. The lab or a later task uses such values.",
+            "very large values of `x`. Such values occur in the lab or in a later task.",
         ),
         (
             lambda x: 2.0 * x if x <= LIMIT else x,

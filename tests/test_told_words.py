@@ -192,7 +192,7 @@ def test_a_size_that_a_question_decides_is_that_of_one_result():
     inputs = [(np.ones((n, 2)),) for n in (1, 2, 3)]
     row = row_of(kinds, lambda x: (x.sum(), 3.0 * x), lambda rng: inputs)
     verdict = told(row, lambda x: (x.sum(), 3.0 * x[:2] + 1.0))
-    says = "Your second result, the gradient, is an array of the wrong shape in 1 of"
+    says = "Your second result, the gradient, has the wrong shape in 1 of"
     assert verdict.message.startswith(f"{says} 3 calls.")
 
 

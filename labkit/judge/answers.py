@@ -402,7 +402,7 @@ def in_calls(n: int, of: int, other: bool = False) -> str:
         return "in the other call" if other else "in the only call"
     if not other:
         return f"in all {of} calls"
-    return "in both other calls" if of == 2 else f"in all {of} other calls"
+    return "in the other two calls" if of == 2 else f"in all {of} other calls"
 
 
 def as_clause(sentence: str) -> str:

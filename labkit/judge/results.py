@@ -17,6 +17,7 @@ from labkit.judge.mistake import Finding
 from robo47.errors import Robo47Error
 
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
+SHAPE = "the wrong shape"
 Kinds = Kind | tuple[Any, ...]  # one of an answer, or of each of its results
 
 
@@ -106,7 +107,11 @@ def of_one(kind: Kinds, j: int, says: str) -> str:
     """Return what "your function returns" as said of one result of several."""
     if isinstance(kind, Kind):
         return says
-    return says.replace("Your function returns", f"{capitalised(nth(kind, j))} is", 1)
+    this = capitalised(nth(kind, j))
+    says = says.replace(
+        f"Your function returns an array of {SHAPE}", f"{this} has {SHAPE}"
+    )
+    return says.replace("Your function returns", f"{this} is", 1)
 
 
 def nth(kind: Kinds, j: int) -> str:

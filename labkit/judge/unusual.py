@@ -33,7 +33,7 @@ def beyond(
     inputs, these = _in_common(failing, usual, names) or (ANY, "inputs")
     return (
         f"Your function is correct for ordinary inputs, but it is wrong for {inputs}. "
-        f"The lab or a later task uses such {these}. Does a guard, a clamp or a "
+        f"Such {these} occur in the lab or in a later task. Does a guard, a clamp or a "
         f"tolerance in your code affect the result for these {these}?"
     )
 
