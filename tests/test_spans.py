@@ -50,22 +50,22 @@ def test_a_small_array_is_told_by_its_entries():
         (
             lambda x: right(x) if abs(x) > 1e-6 else 0.0,
             "f(1e-07) returned 0; expected 2e-07.",
-            "very small values of `x`. Such values occur in the lab or in a later task.",
+            "very small values of `x`. Such values occur in the lab or in a later",
         ),
         (
             lambda x: min(right(x), 1e6),
             "f(1e7) returned 1e+06; expected 1e+07.",
-            "very large values of `x`. Such values occur in the lab or in a later task.",
+            "very large values of `x`. Such values occur in the lab or in a later",
         ),
         (
             lambda x: 2.0 * x if x <= LIMIT else x,
             "f(2) returned 4; expected 2.",
-            "inputs that are very small, very large or exactly at a limit. The lab",
+            "inputs that are very small, very large or exactly at a limit. Such",
         ),
         (
             lambda x: right(x) if 1e-6 < abs(x) < 1e6 else 0.0,
             "f(",
-            "inputs that are very small, very large or exactly at a limit. The lab",
+            "inputs that are very small, very large or exactly at a limit. Such",
         ),
     ],
 )
