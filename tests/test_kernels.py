@@ -102,8 +102,8 @@ def test_days_and_library_are_run_and_nothing_of_the_machines():
 @pytest.mark.parametrize(
     ("one", "other", "says"),
     [
-        (1.4e-7, 1.7e-7, "off by about 1e-07. Rounding"),
-        (1.4e-4, 1.4e-4, "off by 1.4e-04"),
+        (1.4e-7, 1.7e-7, "Largest error: about 1e-07. Rounding"),
+        (1.4e-4, 1.4e-4, "Largest error: 1.4e-04."),
     ],
 )
 def test_a_near_miss_says_the_size_of_rounding_and_the_digits_of_more(one, other, says):
