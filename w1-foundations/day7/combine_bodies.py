@@ -45,7 +45,8 @@ def whole(m1, c1, I1, m2, c2, I2, c, theorem=parallel_axes):
 @row.wrongs
 def _(m1, c1, I1, m2, c2, I2):
     """no-parallel-axes: your code adds I1 and I2 unchanged. First move both inertias to
-      the common centre of mass, because each one is about its own body's centre of mass
+      the common centre of mass, because each inertia is given about its own body's
+      centre of mass
     about-the-origin: your code returns the inertia about the origin of the frame.
       Return the inertia about the common centre of mass instead
     only-the-second-moved: your code moves only I2 to the common centre of mass. Move I1
@@ -57,8 +58,9 @@ def _(m1, c1, I1, m2, c2, I2):
     distance-of-the-two: your code uses the distance between c1 and c2 in the
       parallel-axis theorem. Use the distance of each centre of mass from the common
       centre of mass instead
-    mass-not-in-the-theorem: your code omits the mass of the body in the parallel-axis
-      theorem. The theorem adds m ((d . d) E - d d^T), where E is the identity matrix
+    mass-not-in-the-theorem: your code omits the mass from the parallel-axis theorem.
+      For a body with mass m and offset d from the common centre of mass, the theorem
+      adds m ((d . d) E - d d^T), where E is the identity matrix
     total-mass-for-each: your code uses the total mass for each body in the
       parallel-axis theorem. Use the mass of the body whose inertia is moved instead
     """
@@ -83,7 +85,7 @@ def _(m1, c1, I1, m2, c2, I2):
 def _(m1, c1, I1, m2, c2, I2):
     """products-not-moved: your code applies the parallel-axis theorem only to the
       diagonal of each inertia matrix. Subtract the off-diagonal entries of m d d^T as
-      well
+      well, where d is the body's offset from the common centre of mass
     distance-not-squared: your code uses the distance itself in the parallel-axis
       theorem. Use the squared distance d . d instead
     """
@@ -121,7 +123,8 @@ def _(m1, c1, I1, m2, c2, I2):
     xy-last: your code returns the last three entries in the order yz, xz, xy. The order
       should be xy, xz, yz
     products-negated: your code returns xy, xz and yz with the wrong sign. Return the
-      entries of the inertia matrix, in which xy is the sum of -m x y
+      entries of the inertia matrix unchanged, because the entry xy is already the sum
+      of `-m x y`
     mass-of-the-first: your code returns the mass of the first body only. Return the
       total mass m1 + m2 instead
     """

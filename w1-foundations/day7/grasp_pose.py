@@ -49,8 +49,8 @@ def _(T_world_cube, above):
     folded-by-half-turns: your code subtracts multiples of 180 degrees from the yaw.
       Subtract multiples of 90 degrees instead, because a rotation by 90 degrees does
       not change a cube
-    yaw-forgotten: your code gives the tool the yaw 0 for every cube. Use the yaw of the
-      cube, reduced to an angle between -45 and 45 degrees
+    yaw-forgotten: your code gives the tool a yaw of 0 for every cube. Use the yaw of
+      the cube, reduced to an angle between -45 and 45 degrees
     turned-the-wrong-way: your code rotates the tool in the opposite direction to the
       cube. Check the arguments of arctan2, the sign of the yaw and the order of the
       product with diag(1, -1, -1)
@@ -72,7 +72,8 @@ def _(T_world_cube, above):
     """tool-up: your code returns a pose in which the z axis of the tool points up.
       Rotate the tool by 180 degrees about its x axis, so that its z axis points down
     about-y: your code rotates the tool by 180 degrees about its y axis. Rotate the tool
-      about its x axis instead, so that the tool's x axis is the world x axis at yaw 0
+      about its x axis instead, so that at yaw 0 the tool's x axis is parallel to the
+      world x axis
     left-handed: your code reverses only the z axis, so the matrix is a reflection with
       determinant -1. Reverse the y axis as well, because a rotation matrix has
       determinant 1

@@ -73,14 +73,14 @@ def _(T0, T1, s):
       computes from R0^T R1. The axis of R0^T R1 is expressed in the frame of T0, so
       multiply R0 from the right
     turn-backwards: your code uses R1^T R0, which is the rotation from R1 to R0. Use
-      R0^T R1 instead, which is the rotation from R0 to R1
-    logarithms-mixed: your code interpolates the rotation vectors of R0 and R1 linearly.
-      Use the rotation vector from R0 to R1 instead, because rotations about different
-      axes do not add
+      R0^T R1, the rotation from R0 to R1, instead
+    logarithms-mixed: your code interpolates linearly between the rotation vectors of R0
+      and R1. Multiply the rotation vector of the rotation from R0 to R1 by s instead,
+      because rotations about different axes do not add
     not-turned: your code returns the orientation R0 for every s. The orientation should
-      rotate from R0 at s = 0 to R1 at s = 1
+      change from R0 at s = 0 to R1 at s = 1
     turned-at-once: your code returns the orientation R1 for every s. Multiply the angle
-      of the rotation from R0 to R1 by s
+      of the rotation from R0 to R1 by s instead
     """
     R0, R1 = T0[:3, :3], T1[:3, :3]
     w0 = log_rotation(R0)

@@ -45,8 +45,8 @@ def _(q0, q1, t, T):
       of the duration. Omit these divisions, because sd and sdd are already derivatives
       with respect to t
     q-wrapped: your code wraps the angles to [-pi, pi]. Return the angles unchanged,
-      because joints with limits are not periodic. For example, joint6 can move to 3.75
-      rad
+      because the angle of a joint with limits is not periodic. For example, joint6 can
+      move to 3.75 rad
     way-wrapped: your code wraps the displacement to [-pi, pi]. Use the displacement
       unchanged, because a joint cannot rotate past its limits to take a shorter path
     """

@@ -17,7 +17,7 @@ def _(rng):
 @row.wrong(
     "one-finger",
     "your code includes the friction of only one finger. Include both fingers, because "
-    "each one presses on a face of the cube",
+    "each finger presses on a face of the cube",
 )
 def _(grip, mu, acceleration):
     return mu * grip / (G + acceleration)

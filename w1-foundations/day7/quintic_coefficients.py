@@ -48,8 +48,8 @@ def which_condition(case: Case) -> Finding | None:
     return Finding(
         "one-condition-not-kept",
         "Your polynomial satisfies five of the six conditions, but not the condition "
-        f"for {which}. Check the row of your matrix for this condition, and its "
-        "right-hand side.",
+        f"for {which}. Check the row of your matrix and the entry of the "
+        "right-hand side for this condition.",
     )
 
 

@@ -58,11 +58,12 @@ def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERAT
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """least-of-all: your code returns the shortest of the durations for all joints and
+    """least-of-all: your code returns the shortest duration among all joints and
       limits. Return the longest duration instead, because only this duration satisfies
       all limits
-    added-up: your code adds the durations for all joints and limits. Return the longest
-      duration instead, because this duration already satisfies all limits
+    added-up: your code returns the sum of the durations for all joints and limits.
+      Return the longest duration instead, because this duration already satisfies all
+      limits
     """
     each = seconds(delta_q, v_max, a_max)
     return {"least-of-all": each.min(), "added-up": each.sum()}
@@ -71,16 +72,16 @@ def _(delta_q, v_max, a_max):
 @row.wrongs
 def _(delta_q, v_max, a_max):
     """peak-of-the-cubic: your code uses 1.5, which is the maximum velocity of the cubic
-      scaling. Use the maximum velocity of the quintic instead, which occurs at half the
-      duration
+      scaling. Use the maximum velocity of the quintic instead. This maximum occurs at
+      half the duration
     peak-of-the-cubic 2: your code uses 6, which is the maximum acceleration of the
-      cubic scaling. Use the maximum acceleration of the quintic instead, where the
-      derivative of the acceleration is 0
+      cubic scaling. Use the maximum acceleration of the quintic instead. This maximum
+      occurs where the derivative of the acceleration is 0
     peak-of-the-cubic 3: your code uses 1.5 and 6, which are the maximum velocity and
       acceleration of the cubic scaling. Use the two maxima of the quintic instead
     peak-at-a-quarter: your code uses 5.625, which is the acceleration at a quarter of
-      the duration. Use the maximum acceleration instead, where the derivative of the
-      acceleration is 0
+      the duration. Use the maximum acceleration instead. This maximum occurs where the
+      derivative of the acceleration is 0
     """
     peaks = {
         "peak-of-the-cubic": {"speed": 1.5},
@@ -96,19 +97,20 @@ def _(delta_q, v_max, a_max):
 @row.wrongs
 def _(delta_q, v_max, a_max):
     """limits-of-different-joints: your code combines the largest displacement with the
-      lowest acceleration limit. Use the displacement and the limit of the same joint
-    both-added: your code adds the duration for the velocity limit and the duration for
-      the acceleration limit. Use the longer of the two instead, which already satisfies
-      both limits
-    both-added 2: your code adds the duration for the velocity limit and the duration
-      for the acceleration limit. Use the longer of the two instead, which already
+      lowest acceleration limit, even if they belong to different joints. Combine each
+      displacement with the limit of the same joint
+    both-added: your code adds the duration for the velocity limit to the duration for
+      the acceleration limit. Use the longer of the two instead, because it already
+      satisfies both limits
+    both-added 2: your code adds the duration for the velocity limit to the duration for
+      the acceleration limit. Use the longer of the two instead, because it already
       satisfies both limits
     shorter-of-two: your code returns the shorter of the durations for the velocity
-      limits and the acceleration limits. Return the longer one instead, because it
+      limits and the acceleration limits. Return the longer duration instead, because it
       satisfies both kinds of limit
     shorter-of-two 2: for each joint, your code uses the shorter of the durations for
-      the velocity limit and the acceleration limit. Use the longer one instead, because
-      it satisfies both limits
+      the velocity limit and the acceleration limit. Use the longer duration instead,
+      because it satisfies both limits
     fastest-joint: your code returns the shortest duration of all joints, so the other
       joints violate their limits. Return the longest duration instead
     fastest-joint 2: for each kind of limit, your code uses the shortest duration of all
@@ -116,7 +118,7 @@ def _(delta_q, v_max, a_max):
       its limits
     one-length: your code uses the norm of delta_q and the lowest limits for all joints.
       Use each joint's own displacement and limits instead
-    summed: your code adds the durations of the joints. Return the longest duration
+    summed: your code adds up the durations of the joints. Return the longest duration
       instead, because the joints move at the same time
     mean: your code returns the mean of the joints' durations, so the slower joints
       violate their limits. Return the longest duration instead
@@ -127,10 +129,10 @@ def _(delta_q, v_max, a_max):
       each joint's own limits instead
     one-limit-for-all 2: your code uses the lowest limits for all joints. Use each
       joint's own limits instead
-    speed-only: your code uses only the velocity limits, so a short motion exceeds the
-      acceleration limits. Use both limits
-    acceleration-only: your code uses only the acceleration limits, so a long motion
-      exceeds the velocity limits. Use both limits
+    speed-only: your code uses only the velocity limits, so a short motion can exceed
+      the acceleration limits. Use both kinds of limit
+    acceleration-only: your code uses only the acceleration limits, so a long motion can
+      exceed the velocity limits. Use both kinds of limit
     """
     each = seconds(delta_q, v_max, a_max)
     i = np.argmax(np.abs(delta_q))

@@ -45,13 +45,13 @@ def polynomial(coefficients, x, T):
 
 def jumps(t, T):
     """cubic: your code uses the cubic 3 x^2 - 2 x^3 with x = t / duration. The
-      acceleration of the cubic jumps at both ends. Use the quintic instead, whose
+      acceleration of the cubic jumps at both ends. Use the quintic instead, because its
       acceleration is 0 at both ends
     linear: your code uses s = t / duration, so the velocity jumps at both ends. Use the
-      quintic instead, whose velocity and acceleration are 0 at both ends
+      quintic instead, because its velocity and acceleration are 0 at both ends
     cosine: your code uses s = (1 - cos(pi x)) / 2 with x = t / duration. The
-      acceleration of this function jumps at both ends. Use the quintic instead, whose
-      acceleration is 0 at both ends
+      acceleration of this function jumps at both ends. Use the quintic instead, because
+      its acceleration is 0 at both ends
     """
     x = np.clip(t / T, 0.0, 1.0)
     a = np.pi * x
@@ -78,7 +78,8 @@ row.wrongs(jumps_to_rest)
 @row.wrongs
 def _(t, T):
     """septic: your code uses the polynomial of degree 7, whose jerk is also 0 at both
-      ends. Use the polynomial of degree 5 instead
+      ends. Use the polynomial of degree 5 instead, because the task does not require a
+      jerk of 0
     6-and-10-swapped: your code swaps the coefficients 6 and 10, so the velocity is not
       0 at the end. The coefficient of x^3 should be 10 and the coefficient of x^5
       should be 6, where x = t / duration
@@ -124,8 +125,8 @@ def _(t, T):
       duration^2, because sdd is the second derivative with respect to t
     multiplied-by-T: your code multiplies sd by the duration and sdd by duration^2. By
       the chain rule, divide by these factors instead
-    only-s-clipped: your code clamps only s before the start and after the end. Set sd
-      and sdd to 0 at these times, because the robot is at rest
+    only-s-clipped: your code clamps s before the start and after the end, but not sd
+      and sdd. Set both derivatives to 0 at these times, because the robot is at rest
     """
     right = quintic_scaling(t, T)
     return {

@@ -68,18 +68,19 @@ def to_top(t, L, a, top):
 @row.wrongs
 def _(t, L, v, a):
     """no-triangle: your code uses the maximum velocity v even if the distance L is too
-      short to reach v. For L < v^2 / a, use a triangular profile with a lower maximum
-      velocity
+      short to reach v. For L < v^2 / a, use a triangular profile, whose peak velocity
+      is below v
     triangle-too-late: your code uses a triangular profile only for L < v^2 / (2 a),
-      which is the distance of one ramp. Use a triangular profile for all L < v^2 / a,
-      which is the distance of both ramps
+      which is the distance that one ramp covers. Use a triangular profile for all L <
+      v^2 / a, because the two ramps together cover the distance v^2 / a
     triangle-too-soon: your code uses a triangular profile for all L < 2 v^2 / a, so the
-      velocity can exceed v. Use a triangular profile only for L < v^2 / a, which is the
-      distance of both ramps
+      velocity can exceed v. Use a triangular profile only for L < v^2 / a, because the
+      two ramps together cover the distance v^2 / a
     triangle-too-high: your triangular profile has the height sqrt(2 L a), so its area
-      is 2 L. The area should be L, because the area under the velocity is the distance
+      is 2 L. The area should be L, because the area under the velocity curve is the
+      distance
     triangle-too-low: your triangular profile has the height sqrt(L a / 2), so its area
-      is L / 2. The area should be L, because the area under the velocity is the
+      is L / 2. The area should be L, because the area under the velocity curve is the
       distance
     triangle-not-a-root: your triangular profile has the height L a, which has the unit
       of a squared velocity. Use the square root of L a instead
@@ -99,8 +100,8 @@ def _(t, L, v, a):
 
 @row.wrongs
 def _(t, L, v, a):
-    """ramps-way-forgotten: your code starts the phase of constant velocity at position
-      0. This phase should start at the position where the acceleration phase ends
+    """ramps-way-forgotten: your code starts the constant-velocity phase at position 0.
+      This phase should start at the position where the acceleration phase ends
     does-not-stop: your code continues the deceleration after the end, so the arm moves
       backwards. The arm should be at rest at position L instead
     does-not-wait: your code uses the formulas of the acceleration phase for t < 0.

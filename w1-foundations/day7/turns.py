@@ -52,8 +52,8 @@ TURNS = [
     HeldOut(
         "half-turn-for-none",
         "Your function is correct except for a rotation by 180 degrees, where the "
-        "orientation at s = 1 is still R0. The sine of 180 degrees is 0, like the sine "
-        "of 0 degrees. Which quantity distinguishes these two angles?",
+        "orientation at s = 1 is still R0. The sine is 0 at both 0 and 180 "
+        "degrees. Which quantity distinguishes these two angles?",
         _half,
         mistaken=_not_turned,
     ),

@@ -165,8 +165,8 @@ def interpolate_pose(T0: np.ndarray, T1: np.ndarray, s: float) -> np.ndarray:
     """
     # region 7.6
     R0, p0 = T0[:3, :3], T0[:3, 3]  # the first orientation and the first position
-    turn = jacobian.log_rotation(R0.T @ T1[:3, :3])  # the remaining rotation vector
-    angle = np.linalg.norm(turn)  # the remaining angle
+    turn = jacobian.log_rotation(R0.T @ T1[:3, :3])  # the rotation vector from R0 to R1
+    angle = np.linalg.norm(turn)  # the angle from R0 to R1
     axis = turn / angle if angle > 0 else np.array([0.0, 0.0, 1.0])  # the unit axis
     R = R0 @ screws.exp_rotation(axis, s * angle)  # the orientation at s
     return se3.make_T(R, p0 + s * (T1[:3, 3] - p0))  # the pose on the line
@@ -212,7 +212,7 @@ def combine_bodies(
     c = (m1 * c1 + m2 * c2) / m  # the common centre of mass
     moved = np.zeros((3, 3))  # the sum of the inertias about the common centre
     for mass, com, own in ((m1, c1, I1), (m2, c2, I2)):
-        d = com - c  # the vector from the common centre to the body's own
+        d = com - c  # the body's offset from the common centre of mass
         shift = d @ d * np.eye(3) - np.outer(d, d)  # the parallel-axis theorem
         moved += own + mass * shift  # the inertia about the common centre
     six = moved[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]  # xx, yy, zz, xy, xz, yz

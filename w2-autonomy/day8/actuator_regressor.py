@@ -66,11 +66,11 @@ for slug, says, blocks in (
      lambda qd, qdd: (qdd, qd, np.where(qd > 0.0, 1.0, -1.0))),
     ("sign-at-rest-of-qdd",
      "your code uses the sign of qdd for the dry friction of a joint at rest. Use the "
-     "sign of qd instead, which is 0 at rest",
+     "sign of qd instead, because it is 0 at rest",
      lambda qd, qdd: (qdd, qd, np.where(qd == 0.0, np.sign(qdd), np.sign(qd)))),
     ("slow-left-out",
-     "your code returns 0 for the dry friction of a slow joint. Use the sign of qd, "
-     "because the magnitude of dry friction does not depend on the velocity",
+     "your code returns 0 for the dry friction of a slow joint. Use the sign of qd "
+     "instead, because the magnitude of dry friction does not depend on the velocity",
      lambda qd, qdd: (qdd, qd, np.sign(qd) * (np.abs(qd) >= 0.1))),
     ("dry-one-way",
      "your code returns 0 for the dry friction of a joint with a negative qd. Return "
@@ -78,7 +78,7 @@ for slug, says, blocks in (
      lambda qd, qdd: (qdd, qd, np.maximum(np.sign(qd), 0.0))),
     ("dry-forgotten",
      "your code returns 0 in the seven columns of dry friction. Write the signs of qd "
-     "on the diagonal of these columns",
+     "on the diagonal of this 7x7 block",
      lambda qd, qdd: (qdd, qd, 0 * qd)),
 ):  # fmt: skip
     row.wrong(slug, says)(lambda qd, qdd, blocks=blocks: side_by_side(*blocks(qd, qdd)))
@@ -86,8 +86,8 @@ for slug, says, blocks in (
 
 @row.wrong
 def by_joint(qd, qdd):
-    """your code groups the columns by joint. Put the seven columns of the rotors first,
-    then the seven of viscous friction, then the seven of dry friction"""
+    """your code groups the columns by joint. Put the seven rotor columns first, then
+    the seven columns of viscous friction, then the seven columns of dry friction"""
     Y = side_by_side(qdd, qd, np.sign(qd)).reshape(7, 3, 7)
     return np.swapaxes(Y, 1, 2).reshape(7, 21)
 

@@ -79,11 +79,12 @@ for slug, says, other in (
      "because the preceding joints move the axis of joint i",
                           {"bracket": 0.0}),
     ("bracket-sign",
-     "your code adds ad(S) V qd to the acceleration A. Add ad(V) S qd instead, which "
-     "has the opposite sign",
+     "your code adds ad(S) V qd to the acceleration A. Add ad(V) S qd instead, because "
+     "swapping V and S reverses the sign",
      {"bracket": -1.0}),
     ("pose-not-inverted", "your code transforms V and A with Ad(T). Use Ad(T^-1) "
-                          "instead, which maps from the world frame to the link frame",
+                          "instead, because it maps from the world frame to the link "
+                          "frame",
      {"into": adjoint}),
     ("offset-left-out",
      "your code uses 0 as the lower left block of Ad(T^-1). This block should be -R^T "
@@ -95,28 +96,34 @@ for slug, says, other in (
      {"into": lambda T: np.eye(6)}),
     ("wrench-back-with-the-inverse",
      "your code transforms the wrench back to the world frame with X^-1, as for a "
-     "twist. Use X^T instead, because the power is the same in both frames",
+     "twist. Use X^T instead, because the power that the wrench delivers is the same "
+     "in both frames",
                                      {"back": np.linalg.inv}),
     ("wrench-not-carried-back",
-     "your code only rotates the wrench to the world frame. Multiply the wrench by "
-     "X^T, which also moves the reference point of the moment to the world origin",
+     "your code only rotates the wrench into the world frame. Multiply the wrench by "
+     "X^T instead, because X^T also moves the reference point of the moment to the "
+     "world origin",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),
     ("every-joint-feels-every-link",
-     "your code fills the rows of all joints for link i. Fill only the rows of joints "
-     "1 to i, because a link causes no torque at the joints distal to it",
+     "your code fills the rows of all joints in the columns of link i. Fill only the "
+     "rows of joints 1 to i, because a link causes no torque at the joints distal to "
+     "it",
      {"felt": lambda i: slice(0, 7)}),
-    ("cut-early", "your code does not fill the row of joint i for link i. Fill this "
-                  "row too, because a link also causes a torque at its own joint",
+    ("cut-early", "your code does not fill the row of joint i in the columns of link "
+                  "i. Fill this row too, because a link also causes a torque at its "
+                  "own joint",
                   {"felt": lambda i: slice(0, i)}),
-    ("cut-late", "your code also fills the row of joint i + 1 for link i. Leave this "
-                 "row 0, because a link causes no torque at the joints distal to it",
+    ("cut-late", "your code also fills the row of joint i + 1 in the columns of link "
+                 "i. Leave this row 0, because a link causes no torque at the joints "
+                 "distal to it",
                  {"felt": lambda i: slice(0, i + 2)}),
-    ("later-links-only", "your code fills the rows of joints i to 7 for link i. Fill "
-                         "the rows of joints 1 to i instead, because these joints "
-                         "carry link i",
+    ("later-links-only", "your code fills the rows of joints i to 7 in the columns of "
+                         "link i. Fill the rows of joints 1 to i instead, because "
+                         "these joints carry link i",
      {"felt": lambda i: slice(i, 7)}),
-    ("own-link-only", "your code fills only the row of joint i for link i. Fill the "
-                      "rows of joints 1 to i, because all these joints carry link i",
+    ("own-link-only", "your code fills only the row of joint i in the columns of link "
+                      "i. Fill the rows of joints 1 to i, because all these joints "
+                      "carry link i",
                       {"felt": lambda i: slice(i, i + 1)}),
     ("last-link-missing",
      "your code returns 0 in the columns of the last link. Does your loop end one link "
@@ -127,7 +134,7 @@ for slug, says, other in (
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
     ("pose-on-the-link-before",
      "your code uses the pose of each link relative to the previous link. Use the "
-     "poses in T_links unchanged, which are relative to the world",
+     "poses in T_links unchanged, because they are already relative to the world",
      {"pose": lambda T, i: inverse(T[i - 1]) @ T[i] if i else T[0]}),
     ("p-sign",
      "your code uses R^T [p] as the lower left block of Ad(T^-1). This block should be "

@@ -51,7 +51,7 @@ def _(J_site, R_site, extra, g):
     holds-averaged: your code averages the equations of all poses before the fit, so
       only seven equations remain. Stack the rows of all poses instead
     first-hold-only: your code uses only the first pose. One pose does not determine all
-      four parameters, so stack the rows of all poses
+      four parameters, so stack the rows of all poses instead
     last-hold-only: your code uses only the last pose. Stack the rows of all poses. Does
       each pass of your loop overwrite the rows of the previous pose?
     extra-by-joint: your code flattens the torques joint by joint, but it stacks the
@@ -61,10 +61,10 @@ def _(J_site, R_site, extra, g):
     wrenches-first: your code converts each pose's torques to a wrench and fits the
       wrenches. Fit the torques themselves, because they are the measured quantities
     cut-too-high: your code omits small singular values. Keep these values, because they
-      determine a part of m c if the poses differ only slightly
-    solutions-averaged: your code solves each pose separately and averages the
-      solutions. One pose does not determine all four parameters, so stack the rows of
-      all poses
+      determine part of m c if the poses differ only slightly
+    solutions-averaged: your code solves the equations of each pose separately and
+      averages the solutions. One pose does not determine all four parameters, so stack
+      the rows of all poses
     weight-for-mass: your code returns the weight in newtons instead of the mass. Use g
       itself in the column for m, not the unit vector along g
     centre-for-first-moment: your code returns the centre of mass c in the last three
@@ -96,8 +96,8 @@ def _(J_site, R_site, extra, g):
 
 @row.wrongs
 def _(J_site, R_site, extra, g):
-    """g-not-turned-back: your code multiplies g by R. Multiply g by R^T to express it
-      in the hand frame
+    """g-not-turned-back: your code multiplies g by R. Multiply g by R^T instead to
+      express g in the hand frame
     moment-in-the-hand: your code expresses the moment in the hand frame. Multiply the
       moment by R, because J_site requires a moment in the world frame
     """

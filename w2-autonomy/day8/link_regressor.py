@@ -36,8 +36,9 @@ def _(V, Vd):
       for each column
     gravity-added: your code adds gravity to Vd. Use Vd unchanged, because it already
       includes gravity as the acceleration -g of the base
-    first-moments-empty: your code returns 0 in the columns for m c. Neither multiply
-      nor divide phi[1:4] by m, because m is 0 in the unit vectors of these columns
+    first-moments-empty: your code returns 0 in the columns for m c. Use phi[1:4]
+      without multiplying or dividing it by m, because m is 0 in the unit vectors for
+      these columns
     """
     right = link_regressor(V, Vd)
     X = ad(V)

@@ -65,7 +65,7 @@ for slug, says, code in (
      lambda phi: np.linalg.eigvalsh(pseudo(phi, doubled))[0]),
     ("centre-for-first-moment",
      "your code uses the centre of mass c in the pseudo-inertia. Use the first moment "
-     "h = m c instead, which phi already contains",
+     "h = m c instead, because phi already contains it",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, h=1.0 / phi[0]))[0]),
     ("determinant",
      "your code returns the determinant of the pseudo-inertia, which is the product of "
@@ -73,19 +73,20 @@ for slug, says, code in (
      lambda phi: np.linalg.det(pseudo(phi))),
     ("singular-value",
      "your code returns the smallest singular value, which is never negative. Return "
-     "the smallest eigenvalue instead, because a negative one shows that the body "
-     "cannot exist",
+     "the smallest eigenvalue instead, because a negative eigenvalue shows that the "
+     "body cannot exist",
      lambda phi: np.linalg.svd(pseudo(phi), compute_uv=False)[-1]),
     ("nearest-to-zero",
      "your code returns the eigenvalue with the smallest absolute value. Return the "
-     "smallest eigenvalue instead, which may be negative",
+     "smallest eigenvalue instead, even if it is negative",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi)), key=abs)),
-    ("clipped", "your code replaces a positive eigenvalue by 0. Return the eigenvalue "
-                "itself instead",
+    ("clipped", "your code returns 0 if the smallest eigenvalue is positive. Return "
+                "the eigenvalue itself instead",
      lambda phi: min(np.linalg.eigvalsh(pseudo(phi))[0], 0.0)),
     ("never-above-zero",
-     "your code returns minus the absolute value of the eigenvalue. Return the "
-     "eigenvalue itself, which is not negative for a body that can exist",
+     "your code returns minus the absolute value of the smallest eigenvalue. Return "
+     "the eigenvalue itself instead, because it is not negative for a body that can "
+     "exist",
      lambda phi: -abs(np.linalg.eigvalsh(pseudo(phi))[0])),
     ("first-moment-once",
      "your result does not depend on h. Write h both to the right of Sigma and below "
@@ -102,8 +103,8 @@ for slug, says, code in (
      "and E is the identity matrix",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi))[0]),
     ("unsorted",
-     "your code returns the first result of numpy.linalg.eigvals, which does not sort "
-     "the eigenvalues. Return the smallest eigenvalue instead",
+     "your code returns the first eigenvalue from numpy.linalg.eigvals, which does not "
+     "sort its results. Return the smallest eigenvalue instead",
      lambda phi: np.linalg.eigvals(pseudo(phi))[0].real),
 ):  # fmt: skip
     row.wrong(slug, says)(code)

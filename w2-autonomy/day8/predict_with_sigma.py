@@ -32,12 +32,12 @@ def _(Y, tau, Y_new, rtol):
       Divide the sum by n - rank instead, because the rank is the number of parameters
       that the truncated fit determines
     one-more-taken-off: your code divides the sum of the squared residuals by n - rank -
-      1. Divide the sum by n - rank instead, because no mean is subtracted
+      1. Divide the sum by n - rank instead, because the model has no constant term
     mean-of-sizes: your code uses the mean absolute residual as the noise level. Use
       sqrt(r . r / (n - rank)) instead, where r is the vector of residuals
     noise-added: your code adds the noise of a new measurement to sigma. Omit this
       noise, because sigma should include only the uncertainty of the fitted parameters
-    mean-taken-off: your code first subtracts the mean of the residuals. Use the
+    mean-taken-off: your code first subtracts the mean from the residuals. Use the
       residuals unchanged, because their mean is part of the noise
     rank-taken-off-last: your code divides the sum of the squared residuals by n and
       then subtracts the rank. Divide the sum by n - rank instead

@@ -88,7 +88,8 @@ for slug, says, told in (
      lambda s, rtol: (n := np.sum(s > rtol), s[0] / s[n - 1])),
     ("condition-of-all",
      "your code divides the largest singular value by the smallest of all singular "
-     "values. Divide by the smallest singular value above rtol times the largest one",
+     "values. Divide by the smallest singular value above rtol times the largest one "
+     "instead",
      lambda s, rtol: (np.sum(s > rtol * s[0]), s[0] / max(s[-1], 1e-300))),
     ("nothing-cut",
      "your code counts all singular values, so rtol has no effect. Count only the "

@@ -26,7 +26,7 @@ def _(rng):
 @row.wrongs
 def _(phi):
     """products-negative: your code negates Ixy, Ixz and Iyz. Copy these three values
-      unchanged, because phi contains the entries of the matrix I
+      unchanged, because they are already entries of the matrix I
     row-by-row: your code reads the six entries of I in the order Ixx, Ixy, Iyy, Ixz,
       Iyz, Izz. Their order in phi is Ixx, Iyy, Izz, Ixy, Ixz, Iyz
     triangle-by-rows: your code reads the six entries of I in the order Ixx, Ixy, Ixz,
@@ -49,8 +49,9 @@ def _(phi):
 
 @row.wrongs
 def _(phi):
-    """lower-half-zero: your code writes the products Ixy, Ixz and Iyz only above the
-      diagonal. Write these products below the diagonal as well, because I is symmetric
+    """lower-half-zero: your code writes the products of inertia Ixy, Ixz and Iyz only
+      above the diagonal. Write these products below the diagonal as well, because I is
+      symmetric
     inertia-about-the-centre: your code adds m [c] [c]^T to I. Use I unchanged, because
       phi already contains the inertia about the origin
     steiner-without-m: your code adds [h] [h]^T to I. Use I unchanged, because phi
@@ -59,8 +60,8 @@ def _(phi):
       left block should be [h]^T
     corner-negated: your code uses [h]^T for both off-diagonal blocks. The upper right
       block should be [h]
-    velocity-first: your code puts the blocks in the order of a twist (v; omega). Put
-      the angular block first, because a twist in this course is (omega; v)
+    velocity-first: your code orders the blocks for a twist of the form (v; omega). Put
+      the angular block first, because this course writes a twist as (omega; v)
     """
     G = right(phi)
     C = skew(phi[1:4])

@@ -133,9 +133,9 @@ def _(Y, tau, rtol):
     cut-not-squared: your code compares the eigenvalues of Y^T Y with rtol times the
       largest one. Use rtol^2 instead of rtol, because these eigenvalues are the squares
       of the singular values
-    ridge: your code adds a constant to the diagonal of Y^T Y, which shrinks all
-      combinations of parameters. Omit the small singular values instead, so that the
-      other combinations keep their values
+    ridge: your code adds a constant to the diagonal of Y^T Y, which shrinks the
+      estimates of all combinations of parameters. Omit the small singular values
+      instead, so that the estimates of the other combinations do not shrink
     mean-taken-off: your code first subtracts the mean of tau. Use tau unchanged,
       because the model tau = Y phi has no constant term
     times-s: your code multiplies U^T tau by the singular values. Divide U^T tau by the

@@ -59,12 +59,12 @@ for slug, says, other in (
      "your code copies the second velocity to the first one. The first velocity should "
      "be 0, because no sample precedes the first one",
      {"change": lambda q: np.append(np.diff(q)[:1], np.diff(q))}),
-    ("two-samples", "your code divides the change over two periods by dt. Divide the "
-                    "change since the previous sample by dt instead",
+    ("two-samples", "your code divides the change over two sampling periods by dt. "
+                    "Divide the change since the previous sample by dt instead",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2])}),
     ("mean-of-two",
-     "your code divides the change over two periods by 2 dt. Divide the change since "
-     "the previous sample by dt instead",
+     "your code divides the change over two sampling periods by 2 dt. Divide the "
+     "change since the previous sample by dt instead",
      {"change": lambda q: np.append([0.0, 0.0], q[2:] - q[:-2]) / 2}),
     ("since-the-start",
      "your code returns the mean velocity since the first sample. Divide the change "
@@ -75,7 +75,7 @@ for slug, says, other in (
      {"change": lambda q: q - q[0]}),
     ("by-its-time",
      "your code divides each change by the time since the start. Divide each change by "
-     "dt instead, because it takes place within one period",
+     "dt instead, because each change takes place within one sampling period",
      {"change": lambda q: backward(q) / np.maximum(np.arange(len(q)), 1)}),
     ("last-left-out",
      "your code returns 0 as the last velocity. Does your loop end one sample too "

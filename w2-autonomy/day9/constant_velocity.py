@@ -26,22 +26,23 @@ def _(dt, accel_psd):
     F-identity: your code uses the identity matrix as F. The upper right entry should be
       dt, because the angle changes by dt times the velocity
     Q-diagonal-only: your code uses a diagonal matrix as Q. The off-diagonal entries
-      should be accel_psd dt^2 / 2, because a velocity change during dt also changes the
-      angle
-    Q-of-a-held-acceleration: your code uses the Q of an acceleration that is constant
-      over dt. Use dt^3 / 3, dt^2 / 2 and dt instead, because the acceleration is white
-      noise
+      should be accel_psd dt^2 / 2, because a change in velocity during a time step also
+      changes the angle
+    Q-of-a-held-acceleration: your code uses the Q for an acceleration that is constant
+      during a time step. Use dt^3 / 3, dt^2 / 2 and dt instead, because the
+      acceleration is white noise
     Q-is-q-1: your code uses accel_psd times the identity matrix as Q. Multiply
       accel_psd by [[dt^3 / 3, dt^2 / 2], [dt^2 / 2, dt]] instead
     Q-is-q-dt-1: your code uses accel_psd dt times the identity matrix as Q. Multiply
       accel_psd by [[dt^3 / 3, dt^2 / 2], [dt^2 / 2, dt]] instead, because the angle is
       the integral of the velocity
     Q-speed-only: your code fills only the entry of the velocity in Q. Fill the other
-      three entries as well, because a velocity change during dt also changes the angle
+      three entries as well, because a change in velocity during a time step also
+      changes the angle
     q-squared: your code squares accel_psd. Use accel_psd itself, because a power
       spectral density is already proportional to a variance
     off-diagonal-sign: your code negates the off-diagonal entries of Q. These entries
-      should be positive, because a positive velocity change also increases the angle
+      should be positive, because an increase in velocity also increases the angle
     speed-first: your code swaps the entries of the angle and the velocity in Q. The
       angle should come first, because the state is (angle; velocity)
     """

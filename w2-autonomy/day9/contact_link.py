@@ -43,15 +43,15 @@ def _(rng):  # at the threshold, which is not over it
 def _(residual, threshold):
     """first-joint: your function returns the first joint over its threshold. Return the
       last such joint instead, because a contact also causes torques at the joints
-      before the touched link
+      between the base and the touched link
     first-joint 2: your function returns the first joint over its threshold, or 1 if
       there is none. Return the last such joint instead, or 0 if there is none
     first-joint 3: your function returns the first joint over its threshold, counted
       from 0. Return the last such joint instead, counted from 1 => both
     from-zero: your code counts the joints from 0. Count the joints from 1 instead,
       because 0 means no contact
-    from-zero 2: your code counts the joints from 0 and returns -1 without a contact.
-      Count the joints from 1, and return 0 without a contact
+    from-zero 2: your code counts the joints from 0 and returns -1 if there is no
+      contact. Count the joints from 1, and return 0 if there is no contact
     negative-only: your code detects only residuals below minus the threshold. Compare
       the absolute values with the thresholds, because a contact torque may have either
       sign

@@ -60,7 +60,7 @@ for slug, says, other in (
      {"angle": lambda kp, kd, w: np.pi - np.arctan(kd * w / kp)}),
     ("in-cycles",
      "your code divides the phase lead by the frequency in Hz. Divide the phase lead "
-     "by w in rad/s instead, because it is in radians",
+     "by w in rad/s instead, because the phase lead is in radians",
      {"by": lambda w: w / (2 * np.pi)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(margin, **other))

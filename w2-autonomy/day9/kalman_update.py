@@ -63,8 +63,8 @@ def after_it(P, H, R, after, new_P):
 
 for slug, says, other in (
     ("surprise-sign",
-     "your code uses H x - z as the innovation, so the state moves away from the "
-     "reading. Use z - H x instead",
+     "your code uses H x - z as the innovation, so the update moves the state away "
+     "from the reading. Use z - H x instead",
      {"of": lambda z, Hx: Hx - z}),
     ("R-rooted", "your code uses the square root of R. Use R itself, because R is a "
                  "covariance and not a standard deviation",
@@ -82,15 +82,15 @@ for slug, says, other in (
      "matrix. Use (I - K H) P instead",
      {"new_P": lambda P, K, S, H, R: without(K, H)}),
     ("P-minus-K-H",
-     "your code computes the new covariance as P - K H. Subtract K H P instead, which "
-     "is equal to K S K^T",
+     "your code computes the new covariance as P - K H. Subtract K H P, which is equal "
+     "to K S K^T, instead",
      {"new_P": lambda P, K, S, H, R: P - K @ H}),
     ("P-joseph-short",
      "your code computes the new covariance as (I - K H) P (I - K H)^T, where I is the "
      "identity matrix. Add K R K^T, which is the other term of the Joseph form",
      {"new_P": lambda P, K, S, H, R: without(K, H) @ P @ without(K, H).T}),
-    ("P-K-R-K-besides", "your code adds K R K^T to P - K S K^T. Omit this term, which "
-                        "belongs only to the Joseph form",
+    ("P-K-R-K-besides", "your code adds K R K^T to P - K S K^T. Omit K R K^T, because "
+                        "it belongs only to the Joseph form",
      {"new_P": lambda P, K, S, H, R: P - K @ S @ K.T + K @ R @ K.T}),
     ("x-only-where-read",
      "your code corrects only the measured entries of x. Correct all entries with K, "
@@ -107,16 +107,17 @@ for slug, says, other in (
      "your code computes the NIS with (H P H^T)^-1. Use S^-1 instead, because the "
      "innovation also contains the noise of the reading",
      {"nis": lambda y, S, known: weighed(y, known[1] @ known[0] @ known[1].T)}),
-    ("nis-after", "your code computes the NIS from the residual z - H x of the "
-                  "updated x. Use the innovation instead, which is computed before "
-                  "the update",
+    ("nis-after", "your code computes the NIS from the residual z - H x with the "
+                  "updated x. Use the innovation instead, which is z - H x with the "
+                  "predicted x",
      {"nis": lambda y, S, known: weighed(known[3], S)}),
     ("nis-with-new-P",
-     "your code computes the NIS with the S of the updated P. Use the S of the "
+     "for the NIS, your code computes S from the updated P. Compute S from the "
      "predicted P instead, because the innovation is computed before the update",
      {"nis": lambda y, S, known: weighed(y, after_it(*known))}),
     ("nis-all-after", "your code computes the NIS from the updated x and P. Use the "
-                      "innovation and S instead, which are computed before the update",
+                      "predicted x and P instead, because the innovation and S are "
+                      "computed before the update",
      {"nis": lambda y, S, known: weighed(known[3], after_it(*known))}),
     ("nis-diagonal", "your code uses only the diagonal of S in the NIS. Use the whole "
                      "matrix S, because the entries of the innovation may be "

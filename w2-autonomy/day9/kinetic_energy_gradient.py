@@ -41,12 +41,12 @@ def gradient(
 for slug, says, other in (
     ("slope-sign",
      "your code returns the gradient with the wrong sign. The derivative of V_i is "
-     "-ad(S_i) V_i, because V_i rotates in the opposite direction relative to the "
-     "rotated links",
+     "-ad(S_i) V_i, because, seen from the rotated links, V_i rotates in the opposite "
+     "direction",
      {"factor": 1.0}),
     ("halved",
-     "your code halves the result. Omit the factor of 1/2, because the twist appears "
-     "twice in the energy V . G V / 2",
+     "your code halves the result. Omit the factor of 1/2, because the derivative of V "
+     ". G V / 2 has two equal terms",
      {"factor": -0.5}),
     ("own-link-only",
      "your code uses only the contribution of link i. Sum the contributions of links i "
@@ -109,10 +109,10 @@ for slug, says, other in (
 
 @row.wrongs
 def _(J_space, G, qd):
-    """C-qd: your code returns the Coriolis torque C qd. Return C^T qd instead, with the
-      transpose of C
+    """C-qd: your code returns the Coriolis torque C qd. Return C^T qd instead, where
+      C^T is the transpose of C
     minus-C-qd: your code returns -C qd, the negative Coriolis torque. Return C^T qd
-      instead, with the transpose of C
+      instead, where C^T is the transpose of C
     each-its-own-twist: your code uses -ad(S_i) V_k for each link k. Use -ad(S_i) V_i
       instead, because the twists of links i to 7 change by the same amount
     """

@@ -41,19 +41,19 @@ for slug, says, other in (
      "constant offset makes neighbouring entries seem correlated",
      {**AS_IT_IS, "below": lambda y: y}),
     ("mean-left-in-the-products",
-     "your code subtracts the mean of y only for the squares, not for the products. "
-     "Subtract the mean for both", AS_IT_IS),
+     "your code subtracts the mean of y only in the squares, not in the products. "
+     "Subtract the mean in both", AS_IT_IS),
     ("mean-left-in-the-squares",
-     "your code subtracts the mean of y only for the products, not for the squares. "
-     "Subtract the mean for both",
+     "your code subtracts the mean of y only in the products, not in the squares. "
+     "Subtract the mean in both",
      {"below": lambda y: y}),
     ("squares-of-the-first",
-     "your code omits the square of the last entry in the denominator. Use all n "
+     "your code omits the square of the last entry from the denominator. Include all n "
      "squares",
      {"squares": lambda d: d[:-1] @ d[:-1]}),
     ("squares-of-the-last",
-     "your code omits the square of the first entry in the denominator. Use all n "
-     "squares",
+     "your code omits the square of the first entry from the denominator. Include all "
+     "n squares",
      {"squares": lambda d: d[1:] @ d[1:]}),
     ("two-sizes",
      "your code divides by the product of the norms of y[1:] and y[:-1]. Divide by the "
@@ -97,9 +97,10 @@ for slug, says, other in (
 @row.wrongs
 def _(y):
     """two-means: your code uses a separate mean and norm for y[1:] and y[:-1], as
-      np.corrcoef does. Use the mean of y for both, and the sum of all n squares
+      np.corrcoef does. Use the mean of the whole y for both slices, and divide by the
+      sum of all n squares
     of-the-changes: your code returns the autocorrelation of the differences between
-      neighbouring entries. Return the autocorrelation of y itself
+      neighbouring entries. Return the autocorrelation of y itself instead
     changes-squared: your code returns the Durbin-Watson statistic, which uses the
       squared differences of neighbouring entries. Use the products of neighbouring
       entries instead

@@ -57,7 +57,7 @@ for slug, says, other in (
      {"step": lambda y, now, before, a: now + a * (y - now)}),
     ("euler-share",
      "your code uses 2 pi cutoff dt as alpha, which can exceed 1. Use 1 - exp(-2 pi "
-     "cutoff dt) instead, which is always below 1",
+     "cutoff dt) instead, because it is always below 1",
      {"alpha": lambda x: x}),
     ("no-2-pi",
      "your code omits the factor of 2 pi in alpha. The weight alpha should be 1 - "
@@ -77,15 +77,16 @@ for slug, says, other in (
      "your code starts the output at alpha x[0]. Start the output at x[0] instead",
                        {"first": lambda x, a: a * x[0]}),
     ("by-the-sample-before", "your code uses the previous sample of x instead of the "
-                             "previous output. The filter needs the previous output, "
-                             "which depends on all earlier samples",
+                             "previous output. Use the previous output, because it "
+                             "depends on all earlier samples",
      {"step": lambda y, now, before, a: a * now + (1 - a) * before}),
     ("change-added",
      "your code adds alpha times the change of x since the previous sample. Add alpha "
      "times the difference between x and the previous output instead",
      {"step": lambda y, now, before, a: y + a * (now - before)}),
-    ("whole-numbers-kept", "your code stores y in an integer array, which discards "
-                           "the fraction of each output. Create a float array instead",
+    ("whole-numbers-kept", "your code stores y in an integer array, which discards the "
+                           "fractional part of each output. Create a float array "
+                           "instead",
      {"step": lambda y, now, before, a: np.trunc(np.trunc(y) + a * (now - np.trunc(y))),
       "first": lambda x, a: np.trunc(x[0])}),
 ):  # fmt: skip

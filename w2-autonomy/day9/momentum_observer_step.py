@@ -37,8 +37,9 @@ def _(rng):
 
 @row.wrongs
 def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain, dt):
-    """gravity-sign: your code adds `gravity`. Subtract `gravity` instead, because this
-      torque holds the arm, and the weight acts in the opposite direction
+    """gravity-sign: your code adds `gravity`. Subtract it instead, because
+      `gravity` is the torque that holds the arm, and the weight acts in the opposite
+      direction
     residual-without-dt: your code adds the previous residual to the integral without
       the factor dt. Multiply the residual by dt, because the integral is a momentum and
       the residual is a torque
@@ -47,8 +48,9 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
     integral-not-handed-on: your code returns the previous integral. Return the new
       integral instead
     fed-back-times-gain: your code adds gain times the previous residual to the
-      integral. Add the residual without the gain, because it is already a torque
-    low-passed-again: your code adds gain * (momentum - integral) * dt to the previous
+      integral. Add the residual without the gain, because the residual is already a
+      torque
+    low-passed-again: your code adds `gain * (momentum - integral) * dt` to the previous
       residual. Return gain * (momentum - integral) itself, because the feedback in the
       integral already filters the residual
     residual-kept: your code adds the previous residual to the new one. Return the new
@@ -56,8 +58,8 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
     residual-taken-off: your code subtracts the previous residual from the new one.
       Return the new residual alone
     new-residual-fed-back: your code updates the integral with a residual that it
-      computes from the new momentum. Use the argument `residual` instead, which is the
-      residual of the previous sample
+      computes from the new momentum. Use the argument `residual` instead, because it is
+      the residual of the previous sample
     """
     known = tau + energy_grad - gravity - damping * qd
     now = integral + (known + residual) * dt

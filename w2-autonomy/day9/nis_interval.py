@@ -54,7 +54,7 @@ for slug, says, other in (
      "your function uses 2.576 standard deviations, which enclose 99 % of a Gaussian. "
      "Use 1.96 standard deviations for 95 %", {"z": 2.576}),
     ("more-digits", "your function uses 1.959964 standard deviations. Use 1.96, as "
-                    "in the task",
+                    "specified in the task",
      {"z": 1.959964}),
     ("m-cubed",
      "your code multiplies the cube by m^3. Multiply the cube by m instead",

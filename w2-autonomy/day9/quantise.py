@@ -37,7 +37,7 @@ def counted(
 
 for slug, says, other in (
     ("floor",
-     "your code rounds the number of counts down. Round the number of counts to the "
+     "your code rounds down the number of counts. Round the number of counts to the "
      "nearest integer instead, because an encoder reports the nearest count",
      {"whole": np.floor}),
     ("towards-zero",
@@ -46,13 +46,13 @@ for slug, says, other in (
      "count",
      {"whole": np.trunc}),
     ("middle-of-a-count",
-     "your code rounds the number of counts down and adds half a count. Round the "
+     "your code rounds down the number of counts and adds half a count. Round the "
      "number of counts to the nearest integer instead, because an encoder reports "
      "whole counts",
      {"whole": lambda k: np.floor(k) + 0.5}),
     ("one-count-fewer",
-     "your code divides a revolution by counts - 1. Divide the revolution by `counts` "
-     "instead, because it contains `counts` steps",
+     "your code divides a revolution by `counts - 1`. Divide the revolution by "
+     "`counts` instead, because a revolution contains `counts` steps",
      {"step": lambda n: 2 * np.pi / (n - 1)}),
     ("no-pi",
      "your code sets the angle of one count to 1 / counts. Use 2 pi / counts instead, "
