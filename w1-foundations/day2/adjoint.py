@@ -25,9 +25,10 @@ def _(T):
       in the order (v; omega). In this course omega comes first, so the block belongs in
       the lower left
     no-lever-arm: your code sets the lower left block to 0. This block should be [p] R,
-      because v depends on omega if the origins of the two frames differ
+      because the transformed v also depends on omega if the two frames have different
+      origins
     on-both-sides: your code puts [p] R in both off-diagonal blocks. The upper right
-      block should be 0, because omega does not depend on v
+      block should be 0, because the transformed omega does not depend on v
     last-block-zero: your code uses [p] and 0 as the two lower blocks. The lower blocks
       should be [p] R and R
     R-turned-back: your code transposes R in every block. Use R itself
@@ -55,7 +56,7 @@ row.reached_by(
     "skew",
     "in the skew-symmetric matrix [p], ",
     but=["p-cross-w"],
-    called={"w_": "p_"},
+    called={"w_": "p_", " w ": " p "},
 )
 
 

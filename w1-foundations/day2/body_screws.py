@@ -21,7 +21,7 @@ def _(rng):
 @row.wrongs
 def _(screws, M):
     """adjoint-of-M: your code uses the adjoint of M, which maps twists from the
-      end-effector frame to the world frame. Use the adjoint of the inverse of M
+      end-effector frame to the world frame. Use the adjoint of the inverse of M instead
     from-the-right: your adjoint Ad is correct, but your code computes `screws @ Ad`.
       Use the transpose of Ad instead, because each screw is a row of the array
     unchanged: your code returns the screws unchanged, so they are still expressed in
@@ -30,9 +30,10 @@ def _(screws, M):
       or your adjoint has [p] R in the upper right block. Both mistakes give the same
       result
     no-lever-arm: your code only rotates the two halves of each screw, because the lower
-      left block of your adjoint is 0. Does your code use M.T as the inverse of M?
-    t-only-negated: in the inverse of M, your translation is -t. Rotate -t into the
-      end-effector frame
+      left block of your adjoint is 0. Does your code use the transpose of M as the
+      inverse of M?
+    t-only-negated: in the inverse of M, your code only negates the translation. Also
+      rotate the negated translation into the end-effector frame
     """
     R = M[:3, :3]
     t = M[:3, 3]

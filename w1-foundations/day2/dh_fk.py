@@ -79,8 +79,8 @@ row.of_argument("q", LEFT_OUT)
 for by in (1, -1):
     row.wrong(
         "alpha-of-the-neighbour",
-        "your code uses the alpha of a neighbouring row for each row. Use the alpha "
-        "of the same row, because this table follows Craig's convention",
+        "in each row, your code uses the alpha of a neighbouring row. Use the alpha of "
+        "the same row, because the table already follows Craig's convention",
     )(lambda table, q, by=by: dh_fk(np.c_[np.roll(table[:, 0], by), table[:, 1:]], q))
 for names, order in (
     ("a, alpha, d", [1, 0, 2]),
@@ -91,8 +91,8 @@ for names, order in (
 ):
     row.wrong(
         "columns-mixed-up",
-        f"your code reads the columns of the table as ({names}). The order is "
-        "(alpha, a, d)",
+        f"your code reads the columns of the table as ({names}). The correct order "
+        "is (alpha, a, d)",
     )(lambda table, q, order=order: dh_fk(table[:, order], q))
 row.reached_by("dh_link", "in every row, ", but=["theta-forgotten"])
 

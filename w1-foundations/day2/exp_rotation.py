@@ -51,8 +51,8 @@ def _(axis, theta):
       orthonormal only to first order in theta
     sine-term-missing: your code omits the K term, so the rotations by theta and -theta
       are equal
-    identity-missing: your code omits the identity matrix. This term is needed because a
-      rotation by 0 is the identity matrix
+    identity-missing: your code omits the identity matrix. This term is needed because
+      the result at theta = 0 should be the identity matrix
     cosine-for-one-minus-cosine: your code uses cos(theta) as the coefficient of K^2.
       The coefficient should be 1 - cos(theta), which is 0 at theta = 0
     one-minus-sine: your code uses 1 - sin(theta) as the coefficient of K^2. The
@@ -67,7 +67,8 @@ def _(axis, theta):
       is accurate only for small angles. Use the closed form with the sine and the
       cosine
     cosine-before-identity: your code multiplies the identity matrix by cos(theta). Omit
-      this factor, which belongs only to the formula with axis axis^T
+      this factor, which is needed only if the formula contains axis axis^T instead of
+      K^2
     half-angle-not-squared: your code uses 2 sin(theta / 2) as the coefficient of K^2.
       The coefficient should be 1 - cos(theta), which equals 2 sin(theta / 2)^2
     """
@@ -93,10 +94,10 @@ def _(axis, theta):
 @row.wrongs
 def _(axis, theta):
     """exp-by-entries: your code uses `np.exp`, which takes the exponential of each
-      entry. Use the matrix exponential instead, which is a series of matrix products
-    bracket-of-a-dyad: your code adds (1 - cos(theta)) axis axis^T to the identity
-      matrix and the sine term. With this term, multiply the identity matrix by
-      cos(theta)
+      entry. Use the matrix exponential instead, which is a series of matrix powers
+    bracket-of-a-dyad: your code uses axis axis^T but does not multiply the identity
+      matrix by cos(theta). The formula with axis axis^T instead of K^2 needs this
+      factor
     dyad-without-factor: your code omits the factor 1 - cos(theta) in front of axis
       axis^T, so the matrix is not the identity at theta = 0
     dyad-missing: your code omits the term (1 - cos(theta)) axis axis^T. This term is
@@ -135,7 +136,7 @@ row.reached_by(
     "skew",
     "in the skew-symmetric matrix [axis], ",
     but=["p-cross-w"],
-    called={"w_": "axis_"},
+    called={"w_": "axis_", " w ": " axis "},
 )
 
 

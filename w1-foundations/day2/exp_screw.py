@@ -91,8 +91,8 @@ def _(S, theta):
 @row.wrongs
 def _(S, theta):
     """identity-for-theta: your rotation is correct, but the first term of your
-      translation is v. This term should be theta v, because the translation is 0 at
-      theta = 0
+      translation is v. This term should be theta v, because the translation should be 0
+      at theta = 0
     sine-for-theta: your rotation is correct, but the first term of your translation is
       sin(theta) v. This term should be theta v, which is the integral of v from 0 to
       theta
@@ -132,17 +132,17 @@ def _(S, theta):
 @row.wrongs
 def _(S, theta):
     """R-times-v: your rotation is correct, but your translation is R v. The translation
-      should be the integral of the rotated velocity from 0 to theta
+      should be the integral of the rotated v from 0 to theta
     R-times-theta-v: your rotation is correct, but your translation is theta R v. The
-      translation should be the integral of the rotated velocity, because v rotates
-      during the motion
+      translation should be the integral of the rotated v, because v rotates during the
+      motion
     travel-on-a-line: your rotation is correct, but your translation is theta v, which
       is correct only without a rotation. With a rotation, the translation is the
-      integral of the rotated velocity
+      integral of the rotated v
     travel-is-v: your rotation is correct, but your translation is v for every theta.
       The translation should be 0 at theta = 0
-    travel-turned: your rotation is correct, but your code also multiplies the complete
-      translation by R. Use the translation unchanged
+    travel-turned: your rotation is correct, but your code multiplies the correct
+      translation by R. Omit this factor
     travel-over-theta: your rotation is correct, but your code divides the translation
       by theta. Omit this division
     moment-used-as-point: your code uses v as a point on the axis. The vector v is a
@@ -188,7 +188,7 @@ def _(S, theta):
 @row.wrong
 def exp_by_entries(S, theta):
     """your code uses `np.exp`, which takes the exponential of each entry. Use the
-    matrix exponential instead, which is a series of matrix products"""
+    matrix exponential instead, which is a series of matrix powers"""
     bracket = np.zeros((4, 4))
     bracket[:3, :3] = skew(S[:3])
     bracket[:3, 3] = S[3:]
@@ -198,7 +198,7 @@ def exp_by_entries(S, theta):
 row.reached_by(
     "skew",
     "in the skew-symmetric matrix [omega], ",
-    called={"w_": "omega_", "w x p": "omega x p", "p x w": "p x omega"},
+    called={"w_": "omega_", " w ": " omega "},
 )
 row.reached_by("exp_rotation", "in the rotation part, ")
 row.of_answer(of_a_pose(), but=["R-transposed", "inverse-returned"])  # the angle's sign

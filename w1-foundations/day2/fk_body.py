@@ -17,12 +17,12 @@ either_form(row, body)
 
 @row.wrongs
 def _(body_screws, M, q):
-    """M-last: your code multiplies by M on the right of the exponentials, or transforms
-      the screws a second time. For screws expressed in the end-effector frame, M
-      belongs on the left
-    motions-on-the-left: your code multiplies by each exponential on the left. The
-      screws are expressed in the end-effector frame, so each exponential belongs on the
-      right
+    """M-last: your code either multiplies by M on the right of the exponentials or
+      transforms the screws again. Use the given screws unchanged, with M on the left,
+      because these screws are expressed in the end-effector frame
+    motions-on-the-left: your code multiplies the pose by each exponential on the left.
+      Multiply on the right instead, because the screws are expressed in the
+      end-effector frame
     """
     return {
         "M-last": lambda: space(body_screws, M, q),

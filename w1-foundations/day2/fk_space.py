@@ -21,8 +21,8 @@ def _(screws, M, q):
     M-only-added: your code adds only the translation of M. Multiply by M instead,
       because M also contains a rotation
     space-screws-in-body-form: your code transforms the screws to the end-effector
-      frame. Use the screws unchanged, because this order of the factors requires screws
-      in the world frame
+      frame. Use the screws unchanged, because a product with M on the right requires
+      screws expressed in the world frame
     """
     added = np.zeros((4, 4))
     added[:3, 3] = M[:3, 3]

@@ -24,8 +24,9 @@ def _(rng):
 
 @row.wrongs
 def _(T_zero):
-    """axis-row-not-column: your code uses the third row of R as the axis. Use the third
-      column instead, which is the link's z axis expressed in the world frame
+    """axis-row-not-column: your code uses the third row of the rotation matrix as the
+      axis. Use the third column instead, which is the link's z axis expressed in the
+      world frame
     axis-local-z: your code uses the axis (0, 0, 1) for every joint, which is the z axis
       expressed in the link frame. Express this axis in the world frame instead
     axis-x-column: your code uses the link's x axis. Use the link's z axis instead,
@@ -36,14 +37,15 @@ def _(T_zero):
       point on the axis. Use the position relative to the world instead, because the
       screw should be expressed in the world frame
     all-local: your code uses an axis and a point that are expressed in the frame of the
-      parent link. Express both in the world frame instead, as the screw requires
-    poses-multiplied: your code multiplies the poses along the arm. Use each pose
-      unchanged, because the given poses are already relative to the world
+      parent link. Express both in the world frame instead, because the screw should be
+      expressed in the world frame
+    poses-multiplied: your code multiplies each pose by the poses of all previous links.
+      Use each pose unchanged, because the given poses are already relative to the world
     point-turned-back: your code rotates the point into the link frame. Use the point
       unchanged, because it is already expressed in the world frame
     next-links-point: your code uses the origin of the next link as the point on the
-      axis, but this origin is not always on the axis. Use the origin of the joint's own
-      link instead
+      axis, but this origin is not always on the axis. Use the origin of the link that
+      the joint moves
     """
     R = T_zero[:, :3, :3]
     p = T_zero[:, :3, 3]
@@ -72,8 +74,8 @@ for before in (
     row.wrong(
         "previous-links-point",
         "your code uses the origin of the previous link as the point on the axis, but "
-        "this origin is not always on the axis. Use the origin of the joint's own link "
-        "instead",
+        "this origin is not always on the axis. Use the origin of the link that the "
+        "joint moves",
     )(
         lambda T_zero, before=before: screw_axis(
             T_zero[:, :3, 2], before(T_zero[:, :3, 3])

@@ -114,9 +114,9 @@ def _in_M(row, form):
         M-inverted: your code inverts M. Use M itself, which maps end-effector
           coordinates to world coordinates
         M-twice: your product contains M twice. The product should contain M only once
-        M-rotation-missing: your code omits the rotation of M. Multiply by M itself,
-          which also contains a rotation
-        M-turned-back: your code transposes the rotation of M. Use M unchanged
+        M-rotation-missing: your code uses only the translation of M. Multiply by the
+          complete matrix M, which also contains a rotation
+        M-turned-back: your code transposes the rotation matrix in M. Use M unchanged
         """
         used = {
             "M-forgotten": np.eye(4),

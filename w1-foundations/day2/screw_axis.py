@@ -19,25 +19,27 @@ def _(rng):
 
 @row.wrongs
 def _(axis, point):
-    """moment-sign: your omega is correct, but v has the wrong sign. The vector v is
-      omega x r, where r is the vector from the point on the axis to the origin
-    moment-is-point: your code uses the point itself as v. The vector v should be the
-      velocity of the body-fixed point at the origin, which also depends on omega
-    moment-is-minus-point: your code uses the negative of the point as v. The vector v
-      should be the velocity of the body-fixed point at the origin, which also depends
-      on omega
-    moment-is-foot: your code uses the position of the axis point nearest to the origin
-      as v. The vector v should be the velocity of the body-fixed point at the origin,
-      which is perpendicular to this position
+    """moment-sign: your omega is correct, but your v has the wrong sign. The vector v
+      should be omega x r, where r is the vector from the point on the axis to the
+      origin
+    moment-is-point: your code uses the point on the axis as v. The vector v should be
+      the velocity of the body-fixed point at the origin, which depends on both omega
+      and the point on the axis
+    moment-is-minus-point: your code uses the negative of the point on the axis as v.
+      The vector v should be the velocity of the body-fixed point at the origin, which
+      depends on both omega and the point on the axis
+    moment-is-foot: your v is the position of the point on the axis that is nearest to
+      the origin. The vector v should be the velocity of the body-fixed point at the
+      origin. This velocity is perpendicular to your v
     moment-forgotten: your code sets v to 0, which is correct only for an axis through
       the origin. Compute v from the axis and the point
     twist-order: your code swaps omega and v. The first half of the screw should be
       omega, and the second half should be v
-    twist-order-and-sign: your code swaps omega and v, and v also has the wrong sign.
-      The first half of the screw should be omega
-    product-by-entries: your code computes v by an entry-by-entry product of omega and
+    twist-order-and-sign: your code swaps omega and v, and your v also has the wrong
+      sign. The first half of the screw should be omega
+    product-by-entries: your code computes v as an entry-by-entry product of omega and
       the point. Use the cross product instead
-    product-by-entries 2: your code computes v by an entry-by-entry product of omega and
+    product-by-entries 2: your code computes v as an entry-by-entry product of omega and
       the point. Use the cross product instead
     """
     v = np.cross(point, axis)

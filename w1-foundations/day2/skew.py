@@ -24,11 +24,10 @@ def _(w):
       vector p is p x w instead of w x p
     no-minus: none of your entries has a minus sign. Entries that mirror each other
       across the diagonal should have opposite signs
-    outer-product: your code computes the outer product of the vector with itself. Each
-      off-diagonal entry should be plus or minus one component, and each diagonal entry
-      should be 0
-    on-the-diagonal: your code puts the vector on the diagonal. All diagonal entries
-      should be 0
+    outer-product: your code computes the outer product of w with itself. Each
+      off-diagonal entry should be a component of w or its negative, and each diagonal
+      entry should be 0
+    on-the-diagonal: your code puts w on the diagonal. All diagonal entries should be 0
     """
     x, y, z = w
     return {

@@ -61,7 +61,7 @@ def exp_rotation(axis: np.ndarray, theta: float) -> np.ndarray:
     """
     # region 2.2
     K = skew(axis)  # the matrix of the cross product with the axis
-    return np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K  # Rodrigues' sum
+    return np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K  # the rotation
     # endregion 2.2
 
 
@@ -75,7 +75,7 @@ def screw_axis(axis: np.ndarray, point: np.ndarray) -> np.ndarray:
     screw_axis([0, 0, 1], [1, 0, 0]) -> [0, 0, 1, 0, -1, 0]
     """
     # region 2.3
-    return np.concatenate([axis, -skew(axis) @ point])  # omega, and -omega x point
+    return np.concatenate([axis, -skew(axis) @ point])  # the screw axis of the hinge
     # endregion 2.3
 
 
@@ -110,7 +110,7 @@ def joint_screws(T_zero: np.ndarray) -> np.ndarray:
     [[0, 0, 1, 0, -1, 0]]. At q = 0 the Panda's joint2 has (0, 1, 0, -0.333, 0, 0).
     """
     # region 2.5
-    return np.array([screw_axis(T[:3, 2], T[:3, 3]) for T in T_zero])  # z axis, origin
+    return np.array([screw_axis(T[:3, 2], T[:3, 3]) for T in T_zero])  # the screws
     # endregion 2.5
 
 
@@ -157,7 +157,7 @@ def body_screws(screws: np.ndarray, M_home: np.ndarray) -> np.ndarray:
     [0, 0, 0, 1]]) -> [[0, 0, 1, 0, 0, 0]]
     """
     # region 2.7
-    return screws @ adjoint(se3.inverse(M_home)).T  # each row times the adjoint
+    return screws @ adjoint(se3.inverse(M_home)).T  # the body screws
     # endregion 2.7
 
 
