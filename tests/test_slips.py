@@ -347,14 +347,17 @@ def test_a_product_in_the_wrong_order_may_lack_a_transpose():
     assert says == f"your code {does}"
 
 
-@pytest.mark.parametrize(("new", "size"), [("2.0 * x", "twice"), ("0.5 * x", "half")])
+@pytest.mark.parametrize(
+    ("new", "size"), [("2.0 * x", "twice"), ("0.5 * x", "half of")]
+)
 def test_a_factor_of_two_says_which_way_it_goes(new, size):
     node = ast.parse("x", mode="eval").body
     mutant = SimpleNamespace(
         kind="factor",
         edits=[(SimpleNamespace(node=node), ast.parse(new, mode="eval").body)],
     )
-    assert what(mutant) == f"makes one value {size} as large as it should be"
+    assert what(mutant, given={"x": "theta"}) == f"uses {size} `theta` in one place"
+    assert what(mutant) == "omits a factor of two, or has one too many"
 
 
 POLICY_COST = """

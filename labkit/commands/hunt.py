@@ -41,14 +41,15 @@ from robo47.paths import shown
 if TYPE_CHECKING:
     from labkit.hunt.verdict import Repair
 
-HOW = "A call, such as ad([0, 0, 1, 0, 0, 0]), is made; Enter alone runs all of it."
+HOW = "Type a call, such as ad([0, 0, 1, 0, 0, 0]); Enter alone runs the whole script."
 SUSPECT = "Which function do you suspect? "
 EXPECT = "What do you expect to see if this is the fault? "
 DO = """
-  make hunt ARGS=--run       its run, the symptoms
-  make hunt                  say whom you suspect and what you expect, then look
-  make hunt ARGS=--judge     once you wrote that function anew
-  make hunt ARGS=--give-up   which one it was; make hunt ARGS=--help: all of it"""
+  make hunt ARGS=--run       run the script and see the symptoms
+  make hunt                  name the function that you suspect, then test it
+  make hunt ARGS=--judge     check the function after you have written it again
+  make hunt ARGS=--give-up   show the mistake
+  make hunt ARGS=--help      explain all options"""
 
 
 def parse() -> argparse.Namespace:

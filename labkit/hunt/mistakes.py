@@ -11,7 +11,7 @@ from robo47.errors import Robo47Error
 
 LEVELS = {
     1: "one function of the day is wrong",
-    2: "one function of the week is wrong, and you see its capstone alone",
+    2: "one function of the week is wrong, and you see only the capstone",
     3: "two functions of the day are wrong",
 }
 
