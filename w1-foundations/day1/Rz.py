@@ -45,8 +45,8 @@ def _(theta):
       Exactly one of the two sines should have a minus sign
     reflection: your code negates a cosine instead of a sine, so the matrix is a
       reflection (det R = -1)
-    small-angle-formula: your code replaces the sine with the angle and the cosine with
-      1 for small angles. Use the sine and the cosine for every angle
+    small-angle-formula: your code uses the angle instead of its sine and 1 instead of
+      its cosine if the angle is small. Compute the sine and the cosine for every angle
     z-lost: the last diagonal entry of your matrix is 0, so the matrix sets the z
       component of every point to 0. This entry should be 1
     """

@@ -56,8 +56,9 @@ row = Row(
         HeldOut(
             "path-counted",
             "Your pose is correct for `PATH` and its prefixes, but your function "
-            "uses only the number of pairs in `path`. For `PATH[1:]`, it returns the "
-            "pose of link7. Take the body and joint names from the argument `path`.",
+            "uses only the number of pairs in `path`. For `PATH[1:]`, your function "
+            "returns the pose of link7. Take the body and joint names from the "
+            "argument `path`.",
             on(PANDA, PATH[1:], count=2),
             mistaken=lambda model, q, path: fk(model, q, PATH[: len(path)]),
         ),

@@ -35,8 +35,8 @@ ALL = [*ENDS.items(), ("fingertip-for-the-end", HANDS_TIP)]
 
 def elsewhere(model, q, path=PATH):
     """hand-for-attachment-site: your code returns the pose of `hand`, which is a body
-      of another model. Use `attachment_site`, whose frame differs from `hand` by a
-      rotation of 180 degrees about z
+      of another model. Return the pose of `attachment_site` instead. The two frames
+      differ by a rotation of 180 degrees about z
     finger-for-the-end: your code returns the pose of a finger. The model `panda_nohand`
       has no fingers, so the chain should end at `attachment`
     fingertip-for-the-end: your code returns the pose of the tool centre point between

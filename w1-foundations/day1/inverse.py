@@ -51,7 +51,7 @@ def _(T):
       translation of the inverse is expressed in the rotated frame, so rotate -t into
       that frame
     t-turned-forwards: your rotation is correct, but your code multiplies -t by R.
-      Multiply -t by the inverse of R
+      Multiply -t by the inverse of R instead
     R-kept: your translation is correct, but your rotation is R instead of the inverse
       of R
     R-kept-t-negated: your code keeps R and only negates t. Use the inverse of R as the
@@ -60,9 +60,9 @@ def _(T):
       rotation and in the translation
     all-signs: your code negates every entry of T. Use the inverse of R as the rotation
       instead, and compute the translation from this inverse and t
-    minus-R: your code only negates R and t. The matrix -R is a reflection, because its
-      determinant is -1. Use the inverse of R as the rotation instead, and compute the
-      translation from this inverse and t
+    minus-R: your code only negates R and t. The matrix -R is not a rotation matrix,
+      because its determinant is -1. Use the inverse of R as the rotation instead, and
+      compute the translation from this inverse and t
     """
     R, t = split(T)
     return {
@@ -80,8 +80,8 @@ def _(T):
 
 @row.wrong
 def one_over_each_entry(T):
-    """your code replaces every entry of T with its reciprocal. Compute the matrix
-    inverse instead, from the inverse of R and from t"""
+    """your code takes the reciprocal of every entry of T. Use the inverse of R as the
+    rotation instead, and compute the translation from this inverse and t"""
     with np.errstate(divide="ignore"):
         return 1.0 / T
 

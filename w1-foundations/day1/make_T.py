@@ -22,12 +22,12 @@ def _(rng):
 @row.wrongs(hidden={"type-of-R": "the lab's rotations hold no whole numbers alone"})
 def _(R, t):
     """move-then-turn: your code multiplies t by R. Use t unchanged, because a pose
-      first rotates a point and then adds t
+      first rotates a point and then translates it by t
     t-turned-back: your code multiplies t by the transpose of R. Use t unchanged,
       because t is already expressed in the frame to which T maps
-    type-of-R: your code creates an array with the data type of R. If R contains
-      integers, as in `np.eye(3, dtype=int)`, NumPy truncates t to whole numbers. Create
-      an array of floats instead
+    type-of-R: your code creates an array with the dtype of R. If R has an integer
+      dtype, as `np.eye(3, dtype=int)` does, NumPy truncates the entries of t to whole
+      numbers. Create an array of floats instead
     """
     whole = np.array_equal(R, np.round(R))
     return {

@@ -41,8 +41,8 @@ NO_INDEX = Slip(
     r"inhomogeneous|only (length-1|0-dimensional) arrays|sequence|ambiguous",
     r"\.qposadr\b(?!\s*\[)",
     "qposadr-is-an-array",
-    "`model.joint(name).qposadr` is an array with one entry, so `q` indexed with it is "
-    "also an array. Use `qposadr[0]` as the index.",
+    "`model.joint(name).qposadr` is an array with one entry, so indexing `q` with this "
+    "array also returns an array. Use `qposadr[0]` as the index.",
 )  # fmt: skip
 
 
@@ -124,7 +124,7 @@ def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
     missing = f"Your product omits the transform of {name}"
     yield Finding("link-skipped", missing), np.eye(4)
     yield (
-        Finding("link-twice", f"Your product applies the transform of {name} twice"),
+        Finding("link-twice", f"Your product contains the transform of {name} twice"),
         L @ L,
     )
     for mistake in link_T.row.ask.named:

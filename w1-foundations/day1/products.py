@@ -17,12 +17,12 @@ def in_order(model, q, path=PATH):
     """joint-before-link: your code applies each joint's transform before the link's
       transform. Apply the link's transform first, because the joint rotates the link
       about the link's own z axis
-    chain-reversed: your code multiplies the transforms in the reverse order. Multiply
-      by each new transform on the right
-    links-on-the-left: your code multiplies by the link transforms on the left and by
-      the joint transforms on the right. Multiply by both on the right
-    joints-on-the-left: your code multiplies by the joint transforms on the left and by
-      the link transforms on the right. Multiply by both on the right
+    chain-reversed: your code multiplies the transforms in the reverse order. Put each
+      new transform on the right of the product
+    links-on-the-left: your code puts each link's transform on the left of the product
+      and each joint's transform on the right. Put both transforms on the right
+    joints-on-the-left: your code puts each joint's transform on the left of the product
+      and each link's transform on the right. Put both transforms on the right
     multiplied-by-entries: your code multiplies the transforms entry by entry. Use the
       matrix product instead
     """
@@ -38,8 +38,8 @@ def in_order(model, q, path=PATH):
 
 
 def chain_reversed(model, q, path=PATH):
-    """your code multiplies the transforms in the reverse order. Multiply by each new
-    transform on the right"""
+    """your code multiplies the transforms in the reverse order. Put each new transform
+    on the right of the product"""
     return product(L @ J for L, J in steps(model, q, path[::-1]))
 
 
@@ -50,8 +50,9 @@ def on_each_other(model, q, path=PATH):
     """last-step-in-the-world: your code adds the offset of `attachment` along the world
       axes. Rotate this offset first, because it is expressed in the frame of the
       previous body
-    last-step-on-the-left: your code multiplies by the transform of `attachment` on the
-      left, which moves the whole arm. Multiply by this transform on the right
+    last-step-on-the-left: your code puts the transform of `attachment` on the left of
+      the product, so this transform moves the whole arm. Put the transform on the right
+      instead
     local-taken-for-world: your code uses the `pos` and `quat` of `attachment` as its
       pose in the world. Both are relative to the parent body, so multiply the
       transforms of the whole chain
@@ -60,7 +61,8 @@ def on_each_other(model, q, path=PATH):
       the frame of its parent body
     point-with-w-0: your rotation is correct, but your translation is only the rotated
       offset of `attachment`. Add the position of the previous body as well. In
-      homogeneous coordinates, the fourth coordinate of a point is 1, not 0
+      homogeneous coordinates, a matrix product adds this position only if the fourth
+      coordinate of the offset is 1
     inertial-frames: your code uses `ipos` and `iquat`, which describe a body's inertial
       frame. Use `pos` and `quat` instead, which describe the body frame
     inertial-turns: your code uses `iquat`, which is the orientation of a body's
@@ -98,8 +100,9 @@ def inertial(model, q, path, place):
 
 
 def offset_turned_too_late(model, q, path=PATH):
-    """your rotation is correct, but your code updates the rotation before it adds the
-    link's offset. Multiply the offset by the rotation of the previous body instead"""
+    """your rotation is correct, but your code updates the rotation before it rotates
+    the link's offset. Multiply the offset by the rotation of the previous body
+    instead"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         R = R @ L[:3, :3] @ J[:3, :3]
@@ -108,8 +111,8 @@ def offset_turned_too_late(model, q, path=PATH):
 
 
 def turns_in_reverse(model, q, path=PATH):
-    """your code multiplies the rotations in the wrong order. Multiply by each new
-    rotation on the right"""
+    """your code multiplies the rotations in the wrong order. Put each new rotation on
+    the right of the product"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         t = t + R @ L[:3, 3]

@@ -51,7 +51,7 @@ def by_squares(quat):
 UNNORMALISED = (by_ones, by_squares)  # the usual formulas: the same of a unit one
 NOT_NORMALISED = (
     "your code does not normalise the quaternion. Only a unit quaternion represents a "
-    "rotation, and (1, 1, 0, 0), for example, has norm 1.41"
+    "rotation, but (1, 1, 0, 0), for example, has norm 1.41"
 )
 XYZW_AND_NOT_NORMALISED = (
     "your code reads the quaternion as (x, y, z, w) and does not normalise it. "
@@ -68,7 +68,7 @@ def _(quat):
     half-angle: your code rotates by half the correct angle. The component w is the
       cosine of half the rotation angle, not of the rotation angle itself
     short-ones-kept: your code normalises the quaternion only if its norm is above 1.
-      Normalise quaternions with a smaller norm too
+      Also normalise quaternions whose norm is below 1
     factor-two-missing: your code omits the factor 2 in front of the products of
       quaternion components
     """

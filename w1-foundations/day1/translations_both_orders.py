@@ -61,11 +61,11 @@ row.inputs(_two_poses)
 # What goes wrong in one prediction, or in both.
 HALVES = {
     "only-summed": "your code only adds the two translations. First multiply the "
-    "translation of the right factor by the R of the left factor",
+    "right factor's translation by the left factor's R",
     "left-translation-lost": "your code omits the translation of the left factor",
     "right-translation-lost": "your code omits the translation of the right factor",
     "turned-backwards": "your code multiplies the right factor's translation by the "
-    "transpose of the left factor's R. Use this R itself",
+    "transpose of the left factor's R. Use the left factor's R unchanged",
     "wrong-vector-turned": "your code rotates the left factor's own translation "
     "instead of the right factor's translation",
     "wrong-rotation": "your code rotates the right factor's translation by the right "
@@ -74,13 +74,15 @@ HALVES = {
     "the translation of the left factor",
     "subtracted": "your code subtracts the left factor's translation instead of "
     "adding it",
-    "summed-by-columns": "your code multiplies R and the right factor's translation "
-    "entry by entry (`R * t`) and sums each column. Use `R @ t` instead, which sums "
-    "each row",
-    "summed-by-entries": "your code multiplies each row of R by only one entry of t. "
-    "Use `R @ t` instead, which multiplies each row by the whole vector t",
+    "summed-by-columns": "your code multiplies the left factor's R and the right "
+    "factor's translation entry by entry (`R * t`) and sums each column of the "
+    "products. Use `R @ t` instead, which sums each row of the products",
+    "summed-by-entries": "your code multiplies each row of the left factor's R by only "
+    "one entry of the right factor's translation t. Use `R @ t` instead, which "
+    "computes the dot product of each row and t",
     "diagonal-only": "your code multiplies the right factor's translation only by "
-    "the diagonal of R. Use `R @ t` instead, which uses all entries of R",
+    "the diagonal of the left factor's R. Use `R @ t` instead, which uses all entries "
+    "of R",
     "entries-of-4x4": "your code multiplies the two 4x4 matrices entry by entry "
     "(`A * B`). Use the matrix product instead",
 }

@@ -47,17 +47,18 @@ row.cases(
 @row.wrongs
 def _(theta, grad, m, v, k, rate):
     """no-correction: your code omits the bias correction of the averages m and v.
-      Divide m by 1 - 0.9^k and v by 1 - 0.999^k, because both averages start at 0
+      Divide m by 1 - 0.9^k and v by 1 - 0.999^k, because both averages start at 0 and
+      are therefore biased towards 0
     corrected-kept: your code returns the corrected averages. Return m and v without the
       correction, because the next step would correct them again
     eps-in-the-root: your code adds 1e-8 inside the square root. Take the square root
       first, and then add 1e-8
     betas-swapped: your code swaps the two decay rates. The decay rate of m is 0.9, and
       the decay rate of v is 0.999
-    weights-swapped: your code gives the gradient the weight 0.9 and its square the
-      weight 0.999. Give these weights to the old averages m and v instead
-    weight-1: your code gives the gradient and its square the weight 1. Use the weights
-      0.1 and 0.001 instead, so that m and v are averages
+    weights-swapped: your code gives the gradient a weight of 0.9 and its square a
+      weight of 0.999. Give these weights to the old averages m and v instead
+    weight-1: your code gives the gradient and its square a weight of 1. Use weights of
+      0.1 and 0.001 instead, so that the weights in each average add up to 1
     times-for-power: your code divides the averages by 1 - 0.9 * k and 1 - 0.999 * k.
       Raise the decay rates to the power k instead
     old-averages: your code updates theta with the old averages m and v. Update m and v

@@ -18,8 +18,8 @@ def _(rng):
 
 @row.wrong
 def mean_first(z, scaler):
-    """your code adds the mean before the multiplication by the standard deviation. Undo
-    the steps of `normalise` in reverse order: first multiply, then add"""
+    """your code adds the mean before multiplying by the standard deviation. Undo the
+    steps of `normalise` in reverse order: first multiply, then add"""
     return (z + scaler[0]) * scaler[1]
 
 

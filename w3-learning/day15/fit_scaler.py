@@ -49,7 +49,7 @@ def _(x):
       `normalise` would divide by 0. Return 1 for such a column
     rounded-to-0: your code treats a column as constant only if its standard deviation
       is exactly 0. Rounding can give a constant column a standard deviation of about
-      1e-17, so compare the entries of the column instead
+      1e-17, so check whether all entries of the column are equal instead
     about-0 2: your second row contains the root mean square of each column. Subtract
       the mean of the column first, so that the result is the standard deviation
     one-for-all 2: your code uses one mean and one standard deviation for all columns.

@@ -69,39 +69,39 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
       respect to the output h of each hidden layer by 1 - h^2 only once
     slope-1-minus-h: your derivative of tanh is 1 - h, where h is the output of a hidden
       layer. Use 1 - h^2 instead
-    slope-logistic: your code uses h * (1 - h), which is the derivative of the logistic
-      function. The derivative of tanh is 1 - h^2, where h is the output of the hidden
-      layer
+    slope-logistic: your code uses h * (1 - h), which is the derivative of a logistic
+      function with the output h. Use 1 - h^2 instead, because the hidden layers apply
+      tanh
     slope-of-h: your derivative of tanh is 1 - tanh(h)^2, where h is the output of a
       hidden layer. Use 1 - h^2 instead, because h is already the output of tanh
     slope-of-z: your derivative of tanh is 1 - z^2, where z is the argument of tanh. Use
       1 - h^2 instead, where h = tanh(z) is the output of the hidden layer
     slope-not-passed-on: your code omits the derivative of the second tanh from the
-      gradients with respect to W1 and b1. Multiply by 1 - h^2 before you multiply by
-      W2^T, where h is the output of the second hidden layer
+      gradients with respect to W1 and b1. Multiply the gradient with respect to the
+      output h of the second hidden layer by 1 - h^2, and only then by W2^T
     tanh-at-the-end: your code applies tanh to the output. The last layer of `mlp` is
       linear, so omit this tanh
-    tanh-at-the-end 2: your code applies tanh to the output and multiplies by its
-      derivative. The last layer of `mlp` is linear, so omit this tanh and its
-      derivative
+    tanh-at-the-end 2: your code applies tanh to the output and multiplies the gradient
+      by the derivative of this tanh. The last layer of `mlp` is linear, so omit this
+      tanh and its derivative
     divided-twice: your code divides every gradient by the number of rows a second time.
       The gradient with respect to the output already contains the factor 1 / (n * m),
       so sum over the rows without dividing
-    weights-mean: your code takes means over the rows for the gradients with respect to
-      the weights. The gradient with respect to the output already contains the factor 1
-      / (n * m), so sum over the rows without dividing
-    slope-at-the-end: your gradient with respect to the output contains a derivative of
-      tanh. The last layer is linear, so omit this factor
+    weights-mean: your code averages the gradients with respect to the weights over the
+      rows. The gradient with respect to the output already contains the factor 1 / (n *
+      m), so sum over the rows instead
+    slope-at-the-end: your gradient with respect to the output contains the derivative
+      of tanh as a factor. The last layer is linear, so omit this factor
     transposed: your gradients with respect to the weights are transposed. Each gradient
       should have the shape of its weight matrix
-    bias-mean: your code takes means over the rows for the gradients with respect to the
-      biases. The gradient with respect to the output already contains the factor 1 / (n
-      * m), so sum over the rows without dividing
+    bias-mean: your code averages the gradients with respect to the biases over the
+      rows. The gradient with respect to the output already contains the factor 1 / (n *
+      m), so sum over the rows instead
     summed-loss: your function returns the gradients of the sum of the squared errors.
       Divide these gradients by n * m, because the loss is the mean of the squared
       errors
-    rows-only: your code divides the gradient only by the number of rows. Divide the
-      gradient by n * m, because the loss is a mean over rows and columns
+    rows-only: your code divides the gradients by the number of rows only. Divide the
+      gradients by n * m, because the loss is the mean over n rows and m columns
     """
     given = x, target, (W1, b1, W2, b2, W3, b3)
     slopes = {

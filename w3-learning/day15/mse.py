@@ -25,20 +25,19 @@ row.cases(
 
 @row.wrongs
 def _(pred, target):
-    """summed-over-columns: your code divides the loss and its gradient only by the
-      number of rows. Divide both by n * m, because the loss is the mean over all
-      entries
-    summed-over-columns 2: your code divides the loss only by the number of rows. Divide
+    """summed-over-columns: your code divides the loss and its gradient by the number of
+      rows only. Divide both by n * m, because the loss is the mean over all entries
+    summed-over-columns 2: your code divides the loss by the number of rows only. Divide
       the loss by n * m, because it is the mean over all entries. Your gradient is
       correct
     absolute: your loss is the mean absolute error. Return the mean squared error
       instead
-    not-divided: your gradient is 2 * (pred - target). Divide this gradient by n * m,
-      because the loss is a mean over n * m entries
-    divided-by-rows: your code divides the gradient only by the number of rows. Divide
-      the gradient by n * m, because the loss is a mean over rows and columns
-    half: your loss and its gradient contain a factor of 1/2. Omit this factor, because
-      the loss of this task is the mean of the squared errors
+    not-divided: your gradient is `2 * (pred - target)`. Divide this gradient by n * m,
+      because the loss is the mean over n * m entries
+    divided-by-rows: your code divides the gradient by the number of rows only. Divide
+      the gradient by n * m, because the loss is the mean over n rows and m columns
+    half: your loss and its gradient contain an extra factor of 1/2. Omit this factor,
+      because the loss of this task is the mean of the squared errors
     """
     e = pred - target
     n = len(e)

@@ -17,7 +17,7 @@ def _(rng):
 
 @row.wrongs
 def _(known, asked):
-    """squared: your result is the squared distance. Return the square root instead
+    """squared: your result is the squared distance. Return its square root instead
     from-known: your code returns the distance from each row of `known` to the nearest
       row of `asked`. Return the distance from each row of `asked` to the nearest row of
       `known` instead

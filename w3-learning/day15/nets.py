@@ -7,7 +7,8 @@ from labkit.judge import Matrix, Vector
 NAMES = ("W1", "b1", "W2", "b2", "W3", "b3")
 GRADIENTS = tuple(
     (Matrix if name[0] == "W" else Vector)(
-        (None, None) if name[0] == "W" else (None,), called=f"the gradient of {name}"
+        (None, None) if name[0] == "W" else (None,),
+        called=f"the gradient with respect to {name}",
     )
     for name in NAMES
 )

@@ -51,10 +51,10 @@ def _(action, episode):
     """across-episodes: your code includes the change from the last row of an episode to
       the first row of the next episode. Omit this change, because the policy repeats an
       action only within an episode
-    start-from-0: your code includes the first row of each episode and uses 0 as its
-      previous action. Omit this row, because it has no previous action
-    counted-as-0: your code replaces the change from one episode to the next by 0, but
-      keeps this 0 in the mean. Exclude this pair of rows from the mean instead
+    start-from-0: your code includes the first row of each episode and uses 0 as the
+      previous action of this row. Omit the row, because it has no previous action
+    counted-as-0: your code sets each change from one episode to the next to 0 and
+      includes these zeros in the mean. Exclude these changes from the mean instead
     summed-over-columns: your code sums the squared changes over the columns. Take the
       mean over the columns instead, as `mse` does
     mean-of-means: your code computes the mean squared change of each episode and then
@@ -71,7 +71,8 @@ def _(action, episode):
     across-columns: your code takes the differences between columns. Take the
       differences between rows (axis 0) instead
     by-number: your code treats all rows with the same episode number as one episode. A
-      later episode can have the same number, so use only pairs of adjacent rows
+      later episode can have the same number, so use only pairs of rows that are
+      adjacent in `action`
     """
     change = action[1:] - action[:-1]
     same = episode[1:] == episode[:-1]

@@ -153,15 +153,15 @@ def mlp_gradient(
     first = np.tanh(x @ W1 + b1)  # outputs of the first layer
     second = np.tanh(first @ W2 + b2)  # outputs of the second layer
     d3 = mse(second @ W3 + b3, target)[1]  # the gradient with respect to the output
-    d2 = (d3 @ W3.T) * (1 - second**2)  # the gradient before the second tanh
-    d1 = (d2 @ W2.T) * (1 - first**2)  # the gradient before the first tanh
+    d2 = (d3 @ W3.T) * (1 - second**2)  # the gradient at the input of the second tanh
+    d1 = (d2 @ W2.T) * (1 - first**2)  # the gradient at the input of the first tanh
     return (
-        x.T @ d1,  # the gradient of W1
-        d1.sum(axis=0),  # the gradient of b1
-        first.T @ d2,  # the gradient of W2
-        d2.sum(axis=0),  # the gradient of b2
-        second.T @ d3,  # the gradient of W3
-        d3.sum(axis=0),  # the gradient of b3
+        x.T @ d1,  # the gradient with respect to W1
+        d1.sum(axis=0),  # the gradient with respect to b1
+        first.T @ d2,  # the gradient with respect to W2
+        d2.sum(axis=0),  # the gradient with respect to b2
+        second.T @ d3,  # the gradient with respect to W3
+        d3.sum(axis=0),  # the gradient with respect to b3
     )
     # endregion 15.6
 
