@@ -57,7 +57,7 @@ def not_scaled(ray, d):
 
 for slug, says, other in (
     ("range-for-depth",
-     "your code uses the depth as the distance along the ray. Scale the ray such that "
+     "your code uses the depth as the distance along the ray. Scale the ray so that "
      "its z component equals the depth, because the depth is measured along the "
      "camera's z axis",
      {"ray": unit_ray}),
@@ -83,12 +83,13 @@ for slug, says, other in (
      "your code negates x. Keep the sign of x, because x and u both point to the right",
      {"ray": lambda K, h, d: right_ray(K, h) * [-1, 1, 1]}),
     ("f-multiplied",
-     "your code multiplies the distance from the principal point by f. Divide this "
-     "distance by f instead",
+     "your code multiplies the offset from the principal point by f. Divide this "
+     "offset by f instead",
      {"ray": lambda K, h, d: (h - K[:, 2] * [1, 1, 0])
                                * [K[0, 0], K[1, 1], 1]}),
-    ("f-forgotten", "your code omits the focal length. Divide the distance from the "
-                    "principal point by f",
+    ("f-forgotten",
+     "your code omits the focal length. Divide the offset from the principal point by "
+     "f",
      {"ray": lambda K, h, d: h - K[:, 2] * [1, 1, 0]}),
     ("y-up",
      "your code negates y. Keep the sign of y, because y and v both point down",
@@ -98,8 +99,8 @@ for slug, says, other in (
      "along +z",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, 1, -1]}),
     ("mujoco-axes",
-     "your code negates y and z, as for MuJoCo's camera frame. Keep the signs, because "
-     "T_world_cam is already the pose of a frame with y down and z forward",
+     "your code negates y and z, as for MuJoCo's camera frame. Keep their signs, "
+     "because T_world_cam is already the pose of a frame with y down and z forward",
      {"ray": lambda K, h, d: right_ray(K, h) * [1, -1, -1]}),
     ("middle-added", "your code adds half a pixel. Omit this shift, because (0.5, "
                      "0.5) is already the centre of the first pixel",
@@ -114,8 +115,9 @@ for slug, says, other in (
     ("depth-added",
      "your code adds the depth to z. Multiply the whole ray by the depth instead",
      {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
-    ("depth-in-the-pixel", "your code replaces the 1 in (u, v, 1) by the depth. "
-                           "Multiply K^-1 (u, v, 1) by the depth instead",
+    ("depth-in-the-pixel",
+     "your code uses (u, v, depth) as the homogeneous pixel. Use (u, v, 1) instead, "
+     "and multiply K^-1 (u, v, 1) by the depth",
      {"ray": lambda K, h, d: right_ray(K, h * [1, 1, 0] + d * [0, 0, 1]),
       "scaled": not_scaled}),
     ("moved-before-scaled",
@@ -137,8 +139,8 @@ for slug, says, other in (
 
 @row.wrong("depth-along-columns", hidden="the lab never has three points")
 def _(K, T_world_cam, pixels, depth):
-    """your code multiplies each column of the points by one depth. Multiply by
-    depth[:, None] instead, because each point is a row"""
+    """your code multiplies each column of the points by one depth. Multiply each row by
+    one depth instead (use depth[:, None]), because each row is a point"""
     by = depth if len(depth) == 3 else depth[:, None]
     return placed(K, T_world_cam, pixels, depth, scaled=lambda ray, _: ray * by)
 

@@ -27,22 +27,22 @@ def matrix(fx, fy, cx, cy):
 def _(fovy, width, height):
     """width-for-height: your code computes f from the width. Use the height instead,
       because fovy is the vertical field of view
-    two-focal-lengths: your code computes fx from the width. Use f from the height for
-      both axes, because the pixels are square
+    two-focal-lengths: your code computes fx from the width. Compute both fx and fy from
+      the height, because the pixels are square
     sine-for-tangent: your code computes f with the sine of half the field of view. Use
-      the tangent instead, because half the height and f are the two legs of a right
-      triangle
+      the tangent instead, because half the height is the opposite side and f the
+      adjacent side of this angle
     middle-of-a-pixel: your code uses ((width - 1) / 2, (height - 1) / 2) as the
       principal point. Use (width / 2, height / 2) instead, because in this task (0, 0)
-      is the corner of the image
+      is the corner of the image and not the centre of the first pixel
     centre-at-0: your code uses (0, 0) as the principal point. Use (width / 2, height /
       2) instead, which is the centre of the image
     centre-whole: your code uses (width, height) as the principal point. Use (width / 2,
       height / 2) instead, which is the centre of the image
     y-up: your code returns a negative fy. The focal length fy should be positive,
       because v and y both point down
-    whole-division: your code uses the operator //, which rounds half of an odd number
-      down. Use / instead, because the centre of 353 pixels is at 176.5
+    whole-division: your code divides with //, which rounds down. Divide with / instead,
+      because the centre of an image that is 353 pixels wide is at 176.5
     """
     f = height / 2 / np.tan(fovy / 2)
     fw = width / 2 / np.tan(fovy / 2)

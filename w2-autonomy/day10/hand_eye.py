@@ -44,9 +44,9 @@ def _(rng):  # two of the motions rotate by less than 0.2 rad
 
 
 @row.valid(
-    "Your result is correct for exact motions, but it differs from the specified "
-    "method for noisy motions. Use the rotation nearest to the sum of a b^T, as in "
-    "kabsch, and then the least-squares t for this rotation."
+    "Your result is correct for exact motions, but for noisy motions it differs from "
+    "the result of the specified method. Use the rotation nearest to the sum of a "
+    "b^T, as in kabsch, and then the least-squares t for this rotation."
 )
 def _(A, B, X):
     return np.abs(A @ X - X @ B).max() < 1e-8
@@ -113,12 +113,13 @@ for slug, says, other in (
      "negate the singular vector in U that belongs to the smallest singular value",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
     ("mirror-turned-round",
-     "your code negates the whole matrix if U V^T is a reflection. Negate only the "
+     "your code negates all of U V^T if this product is a reflection. Negate only the "
      "singular vector in U that belongs to the smallest singular value",
      {"turn": partial(turns, rotation=all_turned)}),
     ("R-transposed",
-     "your code returns the transposed rotation. Use the sum of a b^T, so that the "
-     "rotation maps the camera's rotation vectors b to the hand's rotation vectors a",
+     "your code returns the transposed rotation. Use the SVD of the sum of a b^T, so "
+     "that the rotation maps the camera's rotation vectors b to the hand's rotation "
+     "vectors a",
      {"turn": lambda A, B: turns(A, B).T}),
     ("centred",
      "your code subtracts the means of the rotation vectors. Use the rotation vectors "
@@ -127,21 +128,23 @@ for slug, says, other in (
     ("axes-alone", "your code normalises the rotation vectors. Keep their norms, "
                    "because the axes of small rotations are less accurate and should "
                    "get less weight", {"turn": partial(turns, unit=True)}),
-    ("positions-for-rotations", "your code fits the rotation to the translations of A "
-                                "and B. Fit the rotation to their rotation vectors "
-                                "instead",
+    ("positions-for-rotations",
+     "your code fits the rotation to the translations of A and B. Fit the rotation to "
+     "the rotation vectors of A and B instead",
      {"turn": between_places}),
     ("R-transposed-in-d",
      "your code rotates t_B by R^T. Use R instead, which maps the camera frame to the "
      "hand frame",
      {"turned": lambda R, t: t @ R}),
     ("first-motion-only",
-     "your code solves for t from the first motion only. One motion does not determine "
-     "t along its rotation axis, so stack the equations of all motions",
+     "your code solves for t from the first motion only. A single motion does not "
+     "determine t along the rotation axis of that motion, so stack the equations of "
+     "all motions",
      {"some": slice(1)}),
     ("last-motion-only",
-     "your code solves for t from the last motion only. One motion does not determine "
-     "t along its rotation axis, so stack the equations of all motions",
+     "your code solves for t from the last motion only. A single motion does not "
+     "determine t along the rotation axis of that motion, so stack the equations of "
+     "all motions",
      {"some": slice(-1, None)}),
 ):  # fmt: skip
     why = "only the axes about joint 7 are in one plane in the lab"
@@ -152,15 +155,17 @@ for slug, says, other in (
 @row.wrongs
 def _(A, B):
     """t-of-the-mean: your code solves for t separately for each motion and returns the
-      mean. One motion does not determine t along its rotation axis, so stack the
-      equations of all motions
+      mean. A single motion does not determine t along the rotation axis of that motion,
+      so stack the equations of all motions
     centred-the-other-way: your code subtracts the means of the rotation vectors and
       fits the rotation from a to b. Fit the rotation from b to a without subtracting
       the means, because a = R b has no translation
-    t-as-if-alike: your code uses the mean of t_A - R t_B as t. Solve (R_A - I) t = R
-      t_B - t_A for all motions by least squares instead, where I is the identity matrix
-    t-as-if-alike 2: your code uses the mean of R t_B - t_A as t. Solve (R_A - I) t = R
-      t_B - t_A for all motions by least squares instead, where I is the identity matrix
+    t-as-if-alike: your code uses the mean of `t_A - R t_B` as t. Solve `(R_A - I) t = R
+      t_B - t_A` for all motions by least squares instead, where I is the identity
+      matrix
+    t-as-if-alike 2: your code uses the mean of `R t_B - t_A` as t. Solve `(R_A - I) t =
+      R t_B - t_A` for all motions by least squares instead, where I is the identity
+      matrix
     """
     R = hand_eye(A, B)[:3, :3]
     alone = [

@@ -40,15 +40,15 @@ def once_each(away):
 @row.wrongs
 def _(T, source, target):
     """step-alone: your code returns the motion that is fitted to the source points
-      moved by T. Return the motion of the source points themselves instead
+      after T has moved them. Fit the motion to the original source points instead
     step-on-the-right: your code multiplies T by the step from the right. Multiply T
       from the left instead, because the step is applied after T
     step-twice: your code multiplies the fitted motion by T. Omit T, because the motion
-      is fitted to the source itself and already contains T
+      is fitted to the original source points and already includes T
     step-twice 2: your code multiplies the fitted motion by T. Omit T, because the
-      motion is fitted to the source itself and already contains T
+      motion is fitted to the original source points and already includes T
     by-sizes-added: your code chooses the nearest point by the sum of the absolute
-      differences. Use the Euclidean distance instead
+      coordinate differences. Use the Euclidean distance instead
     nearer-half: your code uses only the closer half of the pairs for the fit. Use all
       pairs instead
     each-once: your code uses each target point at most once. Omit this restriction,

@@ -69,13 +69,13 @@ for slug, says, other in (
      "negate the singular vector in U that belongs to the smallest singular value",
                {"rotation": lambda U, Vt: U @ Vt}),
     ("mirror-turned-round",
-     "your code negates the whole matrix if U V^T is a reflection. Negate only the "
+     "your code negates all of U V^T if this product is a reflection. Negate only the "
      "singular vector in U that belongs to the smallest singular value",
      {"rotation": all_turned}),
     ("largest-turned-round",
      "your code corrects a reflection by negating the singular vector of the largest "
-     "singular value. Negate the singular vector of the smallest one instead, because "
-     "this choice increases the error least",
+     "singular value. Negate the singular vector of the smallest singular value "
+     "instead, because this choice increases the sum of squared distances least",
      {"rotation": lambda U, Vt: U @ np.diag(
          [np.linalg.det(U @ Vt), 1, 1]) @ Vt}),
     ("column-turned-round",
@@ -97,15 +97,16 @@ for slug, says, other in (
      {"rotation": lambda U, Vt: proper(-U, Vt)}),
     ("not-centred",
      "your code does not subtract the centroids before the SVD. Subtract the "
-     "centroids, because otherwise the translation changes the rotation",
+     "centroids, because otherwise the translation affects the fitted rotation",
      {"centre": lambda X: np.zeros(3)}),
     ("one-number-for-the-centre",
      "your code uses the mean of all coordinates, a single number, as the centroid. "
      "Use axis=0 to compute one mean for each coordinate",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
     ("about-the-first",
-     "your code subtracts the first points before the SVD. Subtract the centroids "
-     "instead, because otherwise the noise of the first pair affects the whole fit",
+     "your code subtracts the first point of each cloud before the SVD. Subtract the "
+     "centroids instead, because otherwise the noise of the first pair affects the "
+     "whole fit",
      {"centre": lambda X: X[0]}),
     ("scaled",
      "your code includes a scale factor in R. Return a pure rotation instead, because "
@@ -122,11 +123,13 @@ for slug, says, other in (
 @row.wrongs
 def _(source, target):
     """t-of-the-first: your code computes the translation from the first pair of points.
-      Use the centroids instead of the first points
-    first-for-centre: your code uses the first points instead of the centroids. Use the
-      centroids, because otherwise the noise of the first pair affects the whole fit
+      Use the centroids of all points instead
+    first-for-centre: your code uses the first point of each cloud instead of the
+      centroid. Use the centroids, because otherwise the noise of the first pair affects
+      the whole fit
     affine: your function fits an affine map by least squares. Fit a rotation and a
-      translation instead, because the matrix of an affine map need not be a rotation
+      translation instead, because the linear part of an affine map need not be a
+      rotation
     """
     R = kabsch(source, target)[:3, :3]
     one = np.hstack([source, np.ones((len(source), 1))])

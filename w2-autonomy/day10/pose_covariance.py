@@ -48,8 +48,8 @@ for slug, says, other in (
                           "the sum over all coordinates",
      {"share": lambda n: 1 / n}),
     ("reshaped-across",
-     "your code reshapes J to (6, 2 n), which mixes its rows. Reshape J to (2 n, 6) "
-     "instead, with one row for each pixel coordinate",
+     "your code reshapes J to (6, 2 n), which mixes entries from different rows. "
+     "Reshape J to (2 n, 6) instead, with one row for each pixel coordinate",
      {"rows": lambda J: J.reshape(6, -1).T}),
     ("u-alone",
      "your code uses only the rows for u. Use the rows for v as well, because they "
@@ -72,9 +72,10 @@ for slug, says, other in (
 @row.wrongs
 def _(J, sigma):
     """information: your code returns the information matrix J^T J / sigma^2. Return the
-      inverse of this matrix instead, which is the covariance
-    by-what-is-left: your code divides the result by 2 n - 6, the degrees of freedom.
-      Omit this division, because sigma is given and not estimated from the fit
+      covariance instead, which is the inverse of this matrix
+    by-what-is-left: your code divides the result by the number of degrees of freedom,
+      `2 n - 6`. Omit this division, because sigma is given and not estimated from the
+      fit
     each-point-alone: your code adds the covariances of the individual points. Add their
       information matrices instead, and invert the sum
     """

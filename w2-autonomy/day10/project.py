@@ -72,26 +72,27 @@ for slug, says, other in (
          p[:, :2] * np.diag(K)[:2] + K[:2, 2], p[:, 2]])}),
     ("centre-forgotten",
      "your code omits the principal point. Add the principal point, because a point "
-     "with x = y = 0 should project to the centre of the image",
+     "on the optical axis (x = y = 0) should project to the principal point",
      {"times": lambda K, p: upright(K, p, centre=0.0)}),
     ("centre-taken-off", "your code subtracts the principal point. Add the principal "
                          "point instead",
      {"times": lambda K, p: upright(K, p, centre=-1.0)}),
     ("centre-swapped", "your code swaps cx and cy. Use cx for u and cy for v",
      {"times": lambda K, p: p @ swapped(K).T}),
-    ("f-forgotten", "your code omits the focal length. Multiply x / z by fx and y / z "
-                    "by fy to convert these ratios to pixels",
+    ("f-forgotten",
+     "your code omits the focal lengths. Multiply x / z by fx and y / z by fy to "
+     "convert these ratios to pixels",
                     {"times": lambda K, p: upright(K, p, f=0.0)}),
     ("y-up",
      "your code negates y. Keep the sign of y, because y and v both point down",
      {"times": lambda K, p: p * [1, -1, 1] @ K.T}),
     ("view-along-minus-z",
-     "your code divides the point by -z, as for MuJoCo's camera frame. Divide by z "
+     "your code divides x and y by -z, as for MuJoCo's camera frame. Divide by z "
      "instead, because in this task the z axis points forward",
      {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
     ("mujoco-axes",
-     "your code negates y and z, as for MuJoCo's camera frame. Keep the signs, because "
-     "T_cam_world already maps to a frame with y down and z forward",
+     "your code negates y and z, as for MuJoCo's camera frame. Keep their signs, "
+     "because T_cam_world already maps to a frame with y down and z forward",
      {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
     ("divided-by-range",
      "your code divides the point by its distance from the camera. Divide the point by "
@@ -102,12 +103,13 @@ for slug, says, other in (
      "its depth z instead",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2] * length(p), length(p)])}),
-    ("first-depth-for-all", "your code divides all points by the depth of the first "
-                            "one. Divide each point by its own depth",
+    ("first-depth-for-all",
+     "your code divides all points by the depth of the first point. Divide each point "
+     "by its own depth",
      {"divided": lambda h, p: h[:, :2] / h[0, 2]}),
     ("divided-by-pixel-length",
-     "your code divides the homogeneous pixel by its norm. Divide by the depth "
-     "instead, which is the last entry of the homogeneous pixel",
+     "your code divides the homogeneous pixel by its norm. Divide the homogeneous "
+     "pixel by its last entry instead, which is the depth",
      {"divided": lambda h, p: h[:, :2] / length(h)}),
     ("homogeneous-by-mistake",
      "your code divides the homogeneous pixel by the depth twice. Divide by the depth "
@@ -127,8 +129,8 @@ for slug, says, other in (
 
 @row.wrong
 def K_before_T(K, T_cam_world, points):
-    """your code applies K before T. Apply T first, because T transforms points in
-    metres and not pixels"""
+    """your code applies K before T. Apply T first, because T applies to points in
+    metres, and multiplication by K gives pixels"""
     p = points @ K.T @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]
     return p[:, :2] / p[:, 2:]
 

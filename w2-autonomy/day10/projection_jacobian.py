@@ -118,7 +118,7 @@ for slug, says, other in (
      {"pixel": lambda K, p: by_point(K, p) / focal(K)}),
     ("centre-in-the-slope",
      "your code includes the principal point in the derivatives with respect to z. "
-     "Omit the principal point, because the derivative of a constant is 0",
+     "Omit the principal point, because it is constant and its derivative is 0",
      {"pixel": with_the_centre}),
     ("x-for-y",
      "your code uses x instead of y in the row for v. The derivative with respect to z "
@@ -148,9 +148,9 @@ for slug, says, other in (
      "columns, because the velocity omega x p is equal to -[p] omega",
      {"twist": lambda p: by_twist(p, 1.0)}),
     ("camera-moves",
-     "your code returns the Jacobian of a moving camera, which has the opposite sign. "
-     "Negate the Jacobian, because in this task the points move and the camera does "
-     "not",
+     "your code returns the Jacobian for a moving camera, which has the opposite "
+     "sign. Negate the Jacobian, because in this task the points move and the camera "
+     "does not",
      {"told": np.negative}),
     ("y-up",
      "your code returns the row for v with the wrong sign. Keep the sign of y, because "

@@ -102,19 +102,20 @@ for slug, says, other in (
      "your code returns the pose after three steps. Return the pose after ten steps "
      "instead", {"n": 3}),
     ("J-of-the-guess",
-     "your code uses the Jacobian of the guess in every step. Evaluate the Jacobian at "
-     "the current pose instead", {"held": True}),
+     "your code uses the Jacobian at the guess in every step. Evaluate the Jacobian "
+     "at the current pose instead", {"held": True}),
     ("twist-halves-swapped",
      "your code treats the step as (v; omega). The step is (omega; v), because the "
      "columns of J begin with omega",
      {"move": lambda T, xi: apply_twist(T, np.roll(xi, 3))}),
     ("body-twist",
      "your code multiplies T by the exponential of each step from the right. Multiply "
-     "T from the left instead, because the columns of J belong to twists in the camera "
-     "frame",
+     "T from the left instead, because J is the Jacobian for twists expressed in the "
+     "camera frame",
      {"move": on_the_right}),
-    ("first-order", "your code replaces the exponential by I + [xi], so R is no "
-                    "longer a rotation. Use the matrix exponential instead",
+    ("first-order",
+     "your code uses I + [xi] instead of exp([xi]), so R is no longer a rotation. Use "
+     "the matrix exponential",
      {"move": first_order}),
     ("gradient",
      "your code uses J^T r as the step, where r is the reprojection error. Use the "
@@ -125,8 +126,8 @@ for slug, says, other in (
      "previous step instead",
                             {"since": lambda T, guess: guess}),
     ("half-steps",
-     "your code halves each step, so ten steps leave a thousandth of the error. Use "
-     "the whole step instead", {"factor": 0.5}),
+     "your code halves each step, so about a thousandth of the error remains after "
+     "ten steps. Use the whole step instead", {"factor": 0.5}),
     ("rows-mixed",
      "your code puts all u before all v in the rows of J, but it orders the errors "
      "point by point. Use the same order for both",

@@ -20,13 +20,14 @@ def _(rng):
 @row.wrongs
 def _(H, f, lo, hi, x):
     """sign: your code negates the multipliers. Return the entries of the gradient,
-      because the cost rises if a bound moves along the gradient
+      because the minimum cost rises if a bound moves in the direction of the gradient
     absolute: your code takes the absolute values of the multipliers. Keep the signs,
-      because the cost falls if an upper bound moves up
-    upper-only: your code returns multipliers only for the upper bounds. Return them for
-      the lower bounds that hold an entry too
-    lower-only: your code returns multipliers only for the lower bounds. Return them for
-      the upper bounds that hold an entry too
+      because the minimum cost falls if an upper bound rises, so the multiplier of that
+      bound is negative
+    upper-only: your code returns multipliers only for the upper bounds. Also return
+      multipliers for the lower bounds that hold an entry
+    lower-only: your code returns multipliers only for the lower bounds. Also return
+      multipliers for the upper bounds that hold an entry
     no-price: your code returns 0 for the held entries. Return the corresponding entry
       of the gradient for each held entry
     largest-only: your code returns only the largest multiplier. Return a multiplier for
@@ -34,8 +35,8 @@ def _(H, f, lo, hi, x):
     first-limit-only: your code returns a multiplier only for the first held entry.
       Return a multiplier for each held entry
     times-the-width: your code multiplies the gradient by the distance between the
-      bounds. Return the gradient itself, which is the change in cost per unit of the
-      bound
+      bounds. Return the gradient itself, which is the change in the minimum cost per
+      unit change in the bound
     lower-sign: your code negates the multipliers of the lower bounds. Return the
       corresponding entries of the gradient
     g-forgotten: your code omits f in the gradient. Use H x + f
@@ -44,9 +45,11 @@ def _(H, f, lo, hi, x):
     H-doubled: your code uses 2 H x + f as the gradient. Use H x + f, because the
       gradient of x . H x / 2 is H x
     divided-by-H: your code divides the gradient by the diagonal of H. Return the
-      gradient itself, which is the change in cost per unit of the bound
+      gradient itself, which is the change in the minimum cost per unit change in the
+      bound
     how-far: your code returns the difference between x and the unconstrained minimiser.
-      Return the gradient instead, which is the change in cost per unit of the bound
+      Return the gradient instead, which is the change in the minimum cost per unit
+      change in the bound
     one-each: your code returns only the sign of each multiplier. Return the entry of
       the gradient itself
     """

@@ -241,13 +241,13 @@ def _(H, f, lo, hi, x):
     scaled-back: your code stops at the first bound on the way to the unconstrained
       minimiser. Hold the entry at this bound, and continue with the other entries
     solved-once-more: your code clamps the unconstrained minimiser and solves for the
-      free entries only once. Repeat this step, because another entry may then violate a
-      bound
-    clipped-for-good: your code never releases an entry that it has clamped. Release an
-      entry if its negative gradient points into the box
+      free entries only once. Repeat this step, because the new solution may violate the
+      bound of another entry
+    clipped-for-good: your code never releases an entry that it has clamped. Release a
+      held entry if its component of the negative gradient points into the box
     held-for-good: your code never releases an entry that is held at a bound, or it
-      releases the wrong entry. Release an entry if its negative gradient points into
-      the box
+      releases the wrong entry. Release a held entry if its component of the negative
+      gradient points into the box
     steepest-let-go: your code releases the held entry with the largest absolute
       gradient. Release the entry that the clamped step of task 13.4 moves most
     all-let-go: your code releases all held entries in the same iteration, so they can
@@ -258,36 +258,39 @@ def _(H, f, lo, hi, x):
       problems. Continue until no held entry has to be released
     upper-limits-passed: your code takes steps that violate the upper bounds. End each
       step at the first bound that it meets
-    held-by-place: your code holds every entry that is at a bound. Release an entry if
-      its negative gradient points into the box
+    held-by-place: your code holds every entry that is at a bound. Release a held entry
+      if its component of the negative gradient points into the box
     frees-the-wrong-ones: your code holds the wrong entries. Hold an entry at a bound
-      only if its negative gradient points out of the box
-    held-left-out: your code omits the held entries in the right-hand side for the free
-      entries. Use the gradient H x + f at the current x
-    held-left-out 2: your code omits the held entries in the right-hand side for the
-      free entries. Use the gradient H x + f at the current x
+      only if its component of the negative gradient points out of the box
+    held-left-out: when your code solves for the free entries, the right-hand side omits
+      the contribution of the held entries. Use the gradient H x + f at the current x in
+      the right-hand side, because it includes this contribution
+    held-left-out 2: when your code solves for the free entries, the right-hand side
+      omits the contribution of the held entries. Use the gradient H x + f at the
+      current x in the right-hand side, because it includes this contribution
     one-step: your code takes only one clamped Newton step. Solve again for the other
       entries, because their optimal values change if one entry is held at a bound
     full-hessian: your code uses the whole matrix H for each step. Omit the rows and
       columns of the held entries, because these entries do not move
     whole-steps: your code clamps the full Newton step of the free entries, so x can
-      alternate between two points. End the step at the first bound, or halve it until
-      the cost falls
+      alternate between two points. End the step at the first bound, or halve the step
+      until the cost falls
     diagonal-hessian: your code divides the gradient by the diagonal of H. Solve with
-      the rows and columns of H for the free entries instead
+      the submatrix of H for the free entries instead
     gradient-steps: your code stops after 100 clamped gradient steps, which have not
       converged. Repeat the steps until x no longer changes
     gradient-steps 2: your code uses the fixed step size 0.1 for clamped gradient steps,
-      which do not converge for every H. Use 1 over the largest eigenvalue of H instead
+      which do not converge for every H. Use the reciprocal of the largest eigenvalue of
+      H instead
     diagonal-hessian 2: your code divides the gradient by the diagonal of H. Solve with
-      the rows and columns of H for the free entries instead
+      the submatrix of H for the free entries instead
     gradient-steps 3: your code stops after 1,000 clamped gradient steps, which have not
       converged if the condition number of H is large. Solve for the free entries
       instead
     one-gradient-step: your code takes only one clamped gradient step. Repeat the steps
       until x no longer changes, or solve for the free entries
-    steps-too-long: your code takes clamped steps of the whole gradient, which may not
-      converge. Divide the gradient by the largest eigenvalue of H
+    steps-too-long: your code takes clamped gradient steps with the step size 1, which
+      may not converge. Divide the gradient by the largest eigenvalue of H
     few-sweeps: your code stops after 100 sweeps of coordinate descent, which have not
       converged. Repeat the sweeps until x no longer changes
     one-sweep: your code makes only one sweep of coordinate descent. Repeat the sweeps,

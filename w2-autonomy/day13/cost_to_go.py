@@ -19,10 +19,10 @@ def _(rng):
 @row.wrongs
 def _(P, x):
     """half: your code returns half of the cost-to-go. Omit the factor of 1/2, because
-      the cost of this task does not contain it
+      the cost in this task has no such factor
     length-of-P-x: your code returns the norm of P x. Return x . P x instead
     summed: your code sums the entries of P x. Multiply each entry by the corresponding
-      entry of x before the sum
+      entry of x before you sum them
     P-rooted: your code uses the square roots of the entries of P. Use P itself
     P-by-squares: your code multiplies P by the squares of the entries of x. Use x . P x
       instead, which also contains products of two different entries of x

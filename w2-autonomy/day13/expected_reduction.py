@@ -20,8 +20,8 @@ def _(rng):
 
 @row.wrongs
 def _(dV, alpha):
-    """sign: your code negates the expected reduction. The reduction should be positive
-      if the cost falls
+    """sign: your code negates the expected reduction. The expected reduction should be
+      positive if the cost is expected to fall
     alpha-rooted: your code multiplies the quadratic part by the square root of alpha.
       Multiply it by alpha^2 instead
     """

@@ -72,8 +72,9 @@ def by_pairs(J_space, masses, coms, g, *, first=max, swapped=False):
 
 @row.wrongs
 def _(J_space, masses, coms, g):
-    """sign: your code negates the stiffness. Use g x omega and not omega x g, because
-      gravity rotates in the opposite direction relative to the links
+    """sign: your code negates the stiffness. Use g x omega and not omega x g, because,
+      relative to the links, gravity rotates in the direction opposite to the rotation
+      of the joint
     gravity-not-turned: your code uses g instead of g x omega, so each column is the
       gravity torque itself. Use g x omega, because the stiffness is the derivative of
       this torque
@@ -82,36 +83,41 @@ def _(J_space, masses, coms, g):
       this torque
     g-times-omega: your code multiplies g and omega entry by entry. Use the cross
       product g x omega instead
-    link-i-only: your code includes only the weight of link i in row i. Include all
-      links distal to link i, because joint i carries them too
+    link-i-only: your code includes only the weight of link i in row i. Include the
+      weights of all links distal to link i too, because joint i also carries these
+      links
     only-links-after: your code omits the weight of link i in row i. Include this
       weight, because joint i also moves link i
     all-links: your code includes the weights of all links in row i. Start with link i,
-      because joint i does not carry the links before it
+      because joint i does not carry the links before link i
     lever-sign: your code uses v - omega x c as the velocity of a centre of mass c. Use
       v + omega x c instead
     halves-swapped: your code swaps omega and v. The upper three rows of `J_space`
       contain omega, and the lower three contain v
     upper-half-zero: your code leaves all entries above the diagonal at 0. Copy the
-      entries below the diagonal to them, because the matrix is symmetric
+      entries from below the diagonal to these positions, because the matrix is
+      symmetric
     lower-half-zero: your code leaves all entries below the diagonal at 0. Copy the
-      entries above the diagonal to them, because the matrix is symmetric
+      entries from above the diagonal to these positions, because the matrix is
+      symmetric
     upper-half-sign: your code negates the entries above the diagonal. Copy them from
       below the diagonal without a change of sign, because the matrix is symmetric
     half-beside-the-diagonal: your code takes the mean of a lower triangular matrix and
       its transpose, which halves the off-diagonal entries. Add the two matrices
       instead, and then halve the diagonal
     diagonal-zero: your code leaves the diagonal at 0. Compute the diagonal entries too,
-      because each joint also changes its own torque
+      because the rotation of each joint also changes the torque at that joint
     not-symmetrised: your code also uses the formula above the diagonal. Copy the lower
-      triangle to the upper one instead, because the formula holds only for i >= j
+      triangle to the upper one instead, because the formula holds only on and below the
+      diagonal
     not-symmetrised 2: your code also uses the formula above the diagonal and transposes
       the result. Copy the lower triangle to the upper one instead, because the formula
-      holds only for i >= j
+      holds only on and below the diagonal
     averaged: your code averages the two triangles. Copy the lower triangle to the upper
-      one instead, because the formula holds only for i >= j
+      one instead, because the formula holds only on and below the diagonal
     other-half: your code copies the upper triangle to the lower one. Copy the lower
-      triangle to the upper one instead, because the formula holds only for i >= j
+      triangle to the upper one instead, because the formula holds only on and below the
+      diagonal
     diagonal-doubled: your code adds two triangles that both contain the diagonal, which
       doubles the diagonal. Include the diagonal in only one of them
     diagonal-only: your code leaves all off-diagonal entries at 0. Compute them too,
@@ -122,7 +128,7 @@ def _(J_space, masses, coms, g):
       gravity may have any direction
     minus-9.81 2: your code uses a vertical vector with the norm of g. Use g itself,
       because gravity may have any direction
-    axis-before: your code uses the axis of joint j - 1 in column j. Use the axis of
+    axis-before: your code uses the axis of joint `j - 1` in column j. Use the axis of
       joint j instead
     axes-summed: your code uses the sum of all axes up to joint j in column j. Use only
       the axis of joint j
@@ -139,16 +145,17 @@ def _(J_space, masses, coms, g):
     turned-twice: your code rotates gravity about both omega_i and omega_j. Rotate
       gravity only about omega_j
     v-for-omega: your code uses v_j as the rotation axis of joint j. Use omega_j
-      instead, the upper three rows of `J_space`
+      instead, which is in the upper three rows of column j of `J_space`
     torque-added: your code uses g + g x omega_j, so it adds the gravity torque itself.
       Use g x omega_j alone, because the stiffness is the derivative of this torque
     distal-joints-too: your code also sums over links that only one of the two joints
-      moves. Start the sum with the link of the later joint, because both joints move
-      only this link and the links after it
-    roles-swapped: your code swaps the two joints. Use the later joint for the velocity
-      of the centre of mass, and the axis of the earlier joint to rotate this velocity
-    screws-stay: your code moves only the centres of mass with joint j. Move the axes of
-      the joints after joint j too
+      moves. Start the sum with the link of the later joint, because only that link and
+      the links after it are moved by both joints
+    roles-swapped: your code swaps the roles of the two joints. Use the later joint for
+      the velocity of the centre of mass, and rotate this velocity about the axis of the
+      earlier joint
+    screws-stay: when joint j moves, your code moves only the centres of mass. Also move
+      the axes of all joints after joint j
     """
     omega = J_space[:3].T
     turned = np.cross(g, omega)

@@ -86,12 +86,12 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
     mu-in-K-only: your code omits `mu` in k. Add `mu` to the diagonal of `Quu` before
       you use `Quu` in any equation
     mu-squared: your code squares `mu`. Add `mu` itself to the diagonal of `Quu`
-    mu-not-in-V: your code omits `mu` in the `Quu` of `Vx` and `Vxx`. Use the same `Quu`
-      as in the gains
-    mu-not-in-V 2: your code omits `mu` in the `Quu` of `Vx`, `Vxx` and `drop`. Use the
-      same `Quu` as in the gains
-    mu-not-in-the-drop: your code omits `mu` in the `Quu` of `drop`. Use the same `Quu`
-      as in the gains
+    mu-not-in-V: your code uses `Quu` without `mu` for `Vx` and `Vxx`. Use the same
+      `Quu` as for the gains
+    mu-not-in-V 2: your code uses `Quu` without `mu` for `Vx`, `Vxx` and `drop`. Use the
+      same `Quu` as for the gains
+    mu-not-in-the-drop: your code uses `Quu` without `mu` for `drop`. Use the same `Quu`
+      as for the gains
     mu-on-Vxx: your code adds `mu` to `Vxx`. Add `mu` to the diagonal of `Quu` instead
     mu-on-Vxx 2: your code adds `mu` to `Vxx` in the formula for `Quu`. Add `mu` to the
       diagonal of `Quu` itself
@@ -101,8 +101,8 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       `Vxx` in each step
     V-signs: your code subtracts `Qux.T @ k` in `Vx` and `Qux.T @ K` in `Vxx`. Add these
       terms, because k and K already contain the minus sign
-    nothing-saved: your code uses `Qx` as `Vx` and `Qxx` as `Vxx`. Add the terms with
-      the gains, which reduce the cost
+    nothing-saved: your code uses `Qx` as `Vx` and `Qxx` as `Vxx`. Add the terms that
+      contain k and K, because the change in the input reduces the cost-to-go
     drop-last-step: your code returns the `drop` of only one step. Sum both entries over
       all steps
     half-in-the-first: your code halves the first entry of `drop`. Halve only the second
@@ -113,27 +113,27 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       sum of `k @ Qu` instead
     drop-of-luu: your code uses the sum of `k @ luu @ k / 2` as the second entry of
       `drop`. Use the sum of `k @ Quu @ k / 2` instead
-    drop-signs: your code negates `drop`. Return the change in cost, whose first entry
-      is negative
+    drop-signs: your code negates `drop`. Because `drop` is the change in cost, its
+      first entry should be negative
     drop-added: your code returns the sum of the two parts as both entries of `drop`.
       Return the two parts separately
     drop-quadratic-sign: your code negates the second entry of `drop`. Use the sum of `k
       @ Quu @ k / 2`, which is positive if `Quu` is positive definite
-    gain-signs: your code omits the minus sign in k and K. Both should contain it,
-      because the input changes by du = k + K dx
-    K-sign: your code omits the minus sign in K. Include it, because iLQR uses du = k +
-      K dx, in contrast to u = -K x in the LQR
-    gain-signs 2: your code omits the minus sign in k and K. Both should contain it,
-      because the input changes by du = k + K dx
-    K-sign 2: your code omits the minus sign in K. Include it, because iLQR uses du = k
-      + K dx, in contrast to u = -K x in the LQR
+    gain-signs: your code omits the minus sign in k and K. Include it in both, because
+      `du = k + K dx` should reduce the cost
+    K-sign: your code omits the minus sign in K. Include it, because iLQR uses `du = k +
+      K dx`, whereas the LQR uses `u = -K x`
+    gain-signs 2: your code omits the minus sign in k and K. Include it in both, because
+      `du = k + K dx` should reduce the cost
+    K-sign 2: your code omits the minus sign in K. Include it, because iLQR uses `du = k
+      + K dx`, whereas the LQR uses `u = -K x`
     diagonal-of-Quu: your code uses only the diagonal of `Quu` for the gains. Use the
       whole matrix `Quu`
     last-step-left-out: your code omits the last time step, so k and K of this step are
       0. Begin the backward pass with the last time step
     first-step-left-out: your code omits the first time step, so k and K of this step
       are 0. End the backward pass with the first time step
-    forwards: your code goes from the first step to the last. Begin with the last step,
+    forwards: your code runs from the first step to the last. Begin with the last step,
       because only the cost-to-go of the final state is known at first
     lux-not-in-K: your code omits `lux` in K, but not in `Vx` and `Vxx`. Use the same
       `Qux`, which contains `lux`, in K, `Vx` and `Vxx`
@@ -141,20 +141,19 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       `fu.T @ Vx`
     mu-halved-each-step: your code halves `mu` in each step. Use the same `mu` in all
       steps
-    lx-of-the-next: your code uses `lx` of step t + 1 in step t. Use `lx` of step t
-      instead
+    lx-of-the-next: your code uses `lx[t + 1]` in step t. Use `lx[t]` instead
     drop-mean: your code divides `drop` by the number of steps. Return the sums over the
       steps
     drop-halved: your code halves both entries of `drop`. Halve only the second entry
-    first-slopes: your code uses `fx` and `fu` of the first step in every step. Use `fx`
-      and `fu` of step t in step t
-    last-slopes: your code uses `fx` and `fu` of the last step in every step. Use `fx`
-      and `fu` of step t in step t
+    first-slopes: your code uses `fx` and `fu` of the first step in every step. Use
+      `fx[t]` and `fu[t]` in step t
+    last-slopes: your code uses `fx` and `fu` of the last step in every step. Use
+      `fx[t]` and `fu[t]` in step t
     K-reversed: your code returns k and K in reverse order. Put the first step first
     K-reversed 2: your code returns k in reverse order. Put the first step first
     K-reversed 3: your code returns K in reverse order. Put the first step first
     end-forgotten: your code begins with `Vx` = 0 and `Vxx` = 0. Begin with the
-      derivatives of the final cost, the arguments `Vx` and `Vxx`
+      derivatives of the final cost (the arguments `Vx` and `Vxx`)
     """
     given = (fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu)
     k, K, drop = ilqr_backward(*given)

@@ -41,28 +41,30 @@ def clipped_first(H, f, lo, hi, x):
 @row.wrongs
 def _(H, f, lo, hi, x):
     """gradient-only: your code returns the largest absolute entry of the gradient.
-      Clamp x minus the gradient to the bounds first, because the gradient at a bound
-      need not be 0 at the minimiser
+      Clamp x minus the gradient to the bounds and compare the result with x, because
+      the component of the gradient for an entry at a bound need not be 0 at the
+      minimiser
     no-abs-the-other-way: your code omits the absolute value of the differences, so it
       ignores entries that decrease. Take the absolute value of each difference first
     not-compared: your code returns the largest absolute entry of the clamped point.
       Return the largest absolute difference between x and the clamped point instead
-    free-only: your code uses only the entries of x that are between their bounds. Use
-      all entries, because the negative gradient at a bound may point into the box
+    free-only: your code uses only the entries of x that are strictly between their
+      bounds. Use all entries, because the negative gradient may move an entry at a
+      bound into the box
     lower-only: your code clamps x minus the gradient only at the lower bounds. Clamp it
       at the upper bounds too
     upper-only: your code clamps x minus the gradient only at the upper bounds. Clamp it
       at the lower bounds too
-    cost-gap: your code returns the decrease in cost that the clamped step causes.
-      Return the largest absolute change of an entry of x instead
+    cost-gap: your code returns the absolute change in cost over the clamped step.
+      Return the largest absolute change in an entry of x instead
     first-only: your code uses only the first entry of x. Use the entry that changes
       most instead
     last-only: your code uses only the last entry of x. Use the entry that changes most
       instead
     share-of-x: your code divides the residual by the largest absolute entry of x if
       this entry is above 1. Omit this division
-    distance: your code returns the largest difference from the minimiser. Compute the
-      residual from the gradient at x instead
+    distance: your code returns the largest absolute difference between x and the
+      minimiser. Compute the residual from the gradient at x instead
     newton-push: your code moves x by a Newton step. Move x by minus the gradient
       instead
     jacobi-push: your code divides the gradient by the diagonal of H. Move x by minus
@@ -73,20 +75,20 @@ def _(H, f, lo, hi, x):
       gradient itself
     half-a-push: your code moves x by minus half the gradient. Move x by minus the
       gradient itself
-    unit-box: your code replaces the bounds by -1 and 1. Use the arguments `lo` and `hi`
+    unit-box: your code uses -1 and 1 as the bounds. Use the arguments `lo` and `hi`
       instead
     which-one: your code returns the index of the largest difference. Return the
       absolute difference itself
     clipped-for-the-difference: your code compares the clamped point with the clamped x.
-      Compare it with x itself
+      Compare the clamped point with x itself
     clipped-first: your code clamps x first, so the residual ignores the distance from x
       to the box. Use x itself
     slope-that-counts: your code returns the largest absolute entry of the gradient,
-      without the entries that a bound holds. Clamp x minus the gradient to both bounds,
-      because a free entry can leave the box too
+      excluding the entries that are held at a bound. Clamp x minus the gradient to both
+      bounds, because this step can also move a free entry out of the box
     slope-that-counts 2: your code returns the largest absolute entry of the gradient,
-      without the entries that a bound holds. Clamp x minus the gradient to both bounds,
-      because a free entry can leave the box too
+      excluding the entries that are held at a bound. Clamp x minus the gradient to both
+      bounds, because this step can also move a free entry out of the box
     signed-limit: your code returns the largest absolute entry of the gradient for the
       free entries only. Clamp x minus the gradient to both bounds for all entries,
       because an entry at a bound may move into the box

@@ -56,27 +56,28 @@ def exact(A, B, h, terms=59):
 
 @row.wrongs
 def _(M, stiffness, damping, h):
-    """slope-not-divided: your code uses the gravity stiffness as an acceleration.
-      Multiply it by (M + h D)^-1, because the stiffness gives a torque
-    explicit-damping: your code multiplies the damping by the old velocity. Add h D to M
+    """slope-not-divided: your code uses the gravity stiffness as an acceleration per
+      radian. Multiply it by (M + h D)^-1, because the stiffness is a torque per radian
+    explicit-damping: your code applies the damping to the old velocity. Add h D to M
       instead, because MuJoCo's `implicitfast` applies the damping to the new velocity
-    damping-twice: your code applies the damping to both the old and the new velocity,
-      (M + h D)^-1 (M - h D). Apply it only to the new velocity, (M + h D)^-1 M
+    damping-twice: your code uses `(M + h D)^-1 (M - h D)`, which applies the damping to
+      both the old and the new velocity. Use `(M + h D)^-1 M` instead, which applies the
+      damping only to the new velocity
     damping-halved: your code applies half of the damping to the old velocity and half
       to the new one. Apply the whole damping to the new velocity
     position-first: your code moves the joints with the old velocity. Use h times the
       new velocity, because MuJoCo updates the velocity first
     half-h-squared: your code moves the joints by h v + h^2 a / 2. Use h times the new
       velocity instead, because MuJoCo updates the velocity first
-    velocity-kept: your code omits the damping in the right half of A. Use (M + h D)^-1
-      M v as the part of the new velocity that comes from the old velocity v
+    velocity-kept: your code omits the damping in the right half of A. The old velocity
+      v should contribute (M + h D)^-1 M v to the new velocity
     velocity-kept 2: your code uses the identity matrix as the lower right block of A.
       Use (M + h D)^-1 M instead, because the damping reduces the velocity
     inverse-by-entry: your code inverts each entry of M + h D separately. Use the matrix
       inverse instead
     position-kept: your code uses the identity matrix as the upper left block of A.
-      Subtract h^2 (M + h D)^-1 times the stiffness, because gravity changes the new
-      velocity, which moves the joints
+      Subtract h^2 (M + h D)^-1 times the stiffness from this block, because gravity
+      changes the new velocity, which moves the joints
     B-upper-zero: your code sets the upper half of B to 0. Use h times the lower half,
       because the new velocity moves the joints within the same step
     continuous: your code returns A and B of the continuous-time system x' = A x + B u.
@@ -84,10 +85,10 @@ def _(M, stiffness, damping, h):
     step-of-euler: your code returns A and B of the explicit Euler step x + h x'. Return
       the matrices of MuJoCo's semi-implicit step, in which the new velocity moves the
       joints
-    identity-missing: your code returns an A that gives only the change of the state.
-      Add the identity matrix, because the new state also contains x itself
+    identity-missing: your A gives only the change in the state. Add the identity
+      matrix, because the new state is x plus this change
     halves-swapped: your code puts the velocities before the positions in the state. Use
-      the order (q - q0, qd)
+      the order `(q - q0, qd)`
     A-rows-swapped: your code swaps the upper and the lower half of A. Put the rows of
       the positions first
     A-columns-swapped: your code swaps the left and the right half of A. Put the columns
@@ -105,19 +106,20 @@ def _(M, stiffness, damping, h):
       applies the damping to the new velocity => both
     B-not-divided: your code omits the factor (M + h D)^-1 in B. Multiply by this
       factor, because the input is a torque and not an acceleration
-    B-halved-below: your code halves the lower half of B. Omit the factor of 1/2,
+    B-halved-below: your code multiplies the lower half of B by 1/2. Omit this factor,
       because the torque acts for the whole step
     B-without-damping: your code uses M^-1 in B, which omits the damping. Use (M + h
       D)^-1 instead
     slope-halved-above: your code halves the stiffness in the upper left block of A.
       Omit the factor of 1/2, because the new velocity moves the joints for the whole
       step
-    B-halved-above: your code halves the upper half of B. Omit the factor of 1/2,
+    B-halved-above: your code multiplies the upper half of B by 1/2. Omit this factor,
       because the new velocity moves the joints for the whole step
     upper-right-h: your code uses h times the identity matrix as the upper right block
       of A. Use h (M + h D)^-1 M instead, because the new velocity moves the joints
-    upper-without-h: your code omits h in the upper half of A. Multiply the rows of the
-      new velocity by h, because the joints move by h times this velocity
+    upper-without-h: your code omits h in the upper half of A. Multiply the terms of the
+      new velocity by h in this half, because the joints move by h times the new
+      velocity
     """
     n = len(damping)
     one = np.eye(n)

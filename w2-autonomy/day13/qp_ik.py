@@ -68,8 +68,8 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     """clip-after: your code clamps Day 3's damped step to the bounds. Solve the
       quadratic program with bounds instead, so that the other joints compensate for a
       joint at its bound
-    scaled-back: your code scales the whole step until every joint is within its bounds.
-      Solve the quadratic program with bounds instead, so that the other joints
+    scaled-back: your code scales down the whole step until every joint is within its
+      bounds. Solve the quadratic program with bounds instead, so that the other joints
       compensate for a joint at its bound
     not-limited: your code omits the bounds `dq_lo` and `dq_hi`. Solve the quadratic
       program with these bounds
@@ -83,14 +83,14 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     limits-1: your code uses -1 and 1 as the bounds. Use `dq_lo` and `dq_hi` instead
     clipped-twice: your code clamps Day 3's damped step and then a second step for the
       remaining error. Solve the quadratic program instead, because the second step also
-      uses joints at a bound
+      relies on joints that are already at a bound
     mean-weight-in-g: your code uses the mean of the weights in f = -J^T W e. Multiply
       each entry of e by its own weight instead
-    clip-after 2: your code clamps Day 3's damped step, without the weights, to the
-      bounds. Solve the quadratic program with bounds instead, so that the other joints
-      compensate for a joint at its bound
-    damping-weighted: your code multiplies the damping by the mean of the weights. Omit
-      this factor, because the weights apply only to the error
+    clip-after 2: your code clamps Day 3's damped step (computed without the weights) to
+      the bounds. Solve the quadratic program with bounds instead, so that the other
+      joints compensate for a joint at its bound
+    damping-weighted: your code multiplies the damping term by the mean of the weights.
+      Omit this factor, because the weights apply only to the error
     stands-still-allowed: your code widens the bounds until they contain 0. Keep the
       bounds, because a joint beyond its range should move back into its range
     translation-only: your code uses only the translation part of the error. Use all six

@@ -16,17 +16,18 @@ row.spans(expected=(1e-5, 1e5), after=(lambda after: 1e6,))
 
 @row.wrongs
 def _(before, after, expected):
-    """sign: your code negates the ratio. Use before - after as the measured reduction
+    """sign: your code negates the ratio. Use `before - after` as the measured reduction
     difference: your code subtracts the expected reduction from the measured one. Divide
       the measured reduction by the expected one instead
-    after-over-before: your code returns after / before, the fraction of the cost that
-      remains. Divide the measured reduction by the expected one instead
-    percent: your code returns the ratio in per cent, which is 100 times too large.
+    after-over-before: your code returns after / before (the fraction of the cost that
+      remains). Divide the measured reduction by the expected one instead
+    percent: your code returns the ratio as a percentage, which is 100 times too large.
       Return the ratio itself
     less-1: your function subtracts 1 from the ratio. Return the ratio itself, which is
       1 if the cost falls as expected
-    how-well-foretold: your code returns 1 - |measured - expected| / |expected|. Return
-      measured / expected instead, which is above 1 if the cost falls more than expected
+    how-well-foretold: your code returns `1 - |measured - expected| / |expected|`.
+      Return measured / expected instead, which is above 1 if the cost falls more than
+      expected
     """
     saved = before - after
     ratio = saved / expected

@@ -29,14 +29,14 @@ def _(rng):
 def _(P, A, B, Q, R):
     """R-forgotten: your code omits R in the gain, so the input has no cost. Use R + B^T
       P B in the equation for K
-    R-once: your code omits the cost of the input in the new P. Add K^T R K to Q + (A -
-      B K)^T P (A - B K)
+    R-once: your code omits the cost of the input in the new P. Add K^T R K to `Q + (A -
+      B K)^T P (A - B K)`
     u-counted-twice: your code counts the cost of the input twice. Omit K^T R K, because
-      Q + A^T P (A - B K) already contains this cost
+      `Q + A^T P (A - B K)` already contains this cost
     K-of-the-new-P: your code computes the gain from the new P. Use the argument P
       instead, which is the cost-to-go of the next state
     gain-sign: your code returns -K. Return K itself, because the minus sign is already
-      in u = -K x
+      in `u = -K x`
     A-P-AT: your code uses A P A^T, which propagates a covariance. Use A^T P A instead,
       which propagates a cost-to-go
     Q-for-P: your code computes the gain with Q instead of P. Use P, which is the
@@ -46,16 +46,17 @@ def _(P, A, B, Q, R):
     K-R-K-subtracted: your code subtracts K^T R K from Q + A^T P A. Subtract K^T (R +
       B^T P B) K instead, because the optimal input reduces the cost-to-go by this term
     motion-forgotten: your code omits the cost-to-go of the next state in the new P. Add
-      the term (A - B K)^T P (A - B K)
-    P-forgotten-and-R: your code returns Q + (A - B K)^T (A - B K) as the new P. Insert
-      the old P between the two factors, and add K^T R K, the cost of the input => both
+      the term `(A - B K)^T P (A - B K)`
+    P-forgotten-and-R: your code returns `Q + (A - B K)^T (A - B K)` as the new P.
+      Insert the old P between the last two factors, and add the cost of the input, K^T
+      R K => both
     K-K-subtracted: your code subtracts K^T K from Q + A^T P A. Subtract K^T (R + B^T P
       B) K instead, because the optimal input reduces the cost-to-go by this term
     K-K-added: your code adds K^T K. Add K^T R K instead, which is the cost of the input
     P-not-updated: your code returns P unchanged. Return the cost-to-go matrix for the
       preceding time step
-    P-halved: your code halves P. Omit the factor of 1/2, because the cost of this task
-      does not contain it
+    P-halved: your code halves P. Omit the factor of 1/2, because the cost in this task
+      has no such factor
     """
     F = B.T @ P @ A
     right, K = riccati_step(P, A, B, Q, R)

@@ -91,7 +91,7 @@ def back_project(
         [pixels, np.ones(len(pixels))]
     )
     p = depth[:, None] * np.linalg.solve(K, through.T).T  # camera-frame points
-    return p @ T_world_cam[:3, :3].T + T_world_cam[:3, 3]  # the points in the world
+    return p @ T_world_cam[:3, :3].T + T_world_cam[:3, 3]  # the world-frame points
     # endregion 10.3
 
 
@@ -107,11 +107,11 @@ def projection_jacobian(K: np.ndarray, p_cam: np.ndarray) -> np.ndarray:
     # region 10.4
     fx, fy = K[0, 0], K[1, 1]  # the focal lengths
     x, y, z = p_cam.T  # the coordinates in the camera frame
-    zero = np.zeros(len(p_cam))  # a 0 for each point
-    one = np.ones(len(p_cam))  # a 1 for each point
+    zero = np.zeros(len(p_cam))  # the zero entries
+    one = np.ones(len(p_cam))  # the unit entries
     of_u, of_v = (
-        fx * np.array([one, zero, -x / z]),  # the row of u, times z
-        fy * np.array([zero, one, -y / z]),  # the row of v, times z
+        fx * np.array([one, zero, -x / z]),  # the row for u before the division by z
+        fy * np.array([zero, one, -y / z]),  # the row for v before the division by z
     )
     by_point = np.array([of_u, of_v]) / z  # the derivatives with respect to the point
     by_point = np.moveaxis(by_point, 2, 0)  # the derivatives of each point
@@ -146,7 +146,7 @@ def apply_twist(T: np.ndarray, xi: np.ndarray) -> np.ndarray:
     """
     # region 10.6
     angle = np.linalg.norm(xi[:3])  # the rotation angle
-    theta = angle if angle > 0 else np.linalg.norm(xi[3:])  # the angle or the distance
+    theta = angle if angle > 0 else np.linalg.norm(xi[3:])  # the magnitude of the twist
     return exp_screw(xi / theta, theta) @ T if theta > 0 else T.copy()  # the pose
     # endregion 10.6
 
@@ -164,7 +164,7 @@ def refine_pose(
     T = T_guess  # the current pose
     for _ in range(STEPS):
         p_cam = points @ T[:3, :3].T + T[:3, 3]  # the points in the camera frame
-        J = projection_jacobian(K, p_cam).reshape(-1, 6)  # the rows, two for each point
+        J = projection_jacobian(K, p_cam).reshape(-1, 6)  # the Jacobian as a matrix
         off = (pixels - project(K, T, points)).ravel()  # the reprojection error
         T = apply_twist(T, np.linalg.lstsq(J, off, rcond=None)[0])  # the next pose
     return T  # the pose after the last step
@@ -179,7 +179,7 @@ def pose_covariance(J: np.ndarray, sigma: float) -> np.ndarray:
     of J together are the 6 x 6 identity, and sigma is 2: four times the identity.
     """
     # region 10.7
-    J = J.reshape(-1, 6)  # the rows, two for each point
+    J = J.reshape(-1, 6)  # the Jacobian as a matrix
     return sigma**2 * np.linalg.inv(J.T @ J)  # the covariance of the twist
     # endregion 10.7
 
@@ -194,7 +194,7 @@ def hand_eye(A: np.ndarray, B: np.ndarray) -> np.ndarray:
     # region 10.8
     a = np.array([log_rotation(T[:3, :3]) for T in A])  # the hand's rotation vectors
     b = np.array([log_rotation(T[:3, :3]) for T in B])  # the camera's rotation vectors
-    U, _, Vt = np.linalg.svd(a.T @ b)  # the decomposition of the sum of a b^T
+    U, _, Vt = np.linalg.svd(a.T @ b)  # the SVD of the sum of a b^T
     R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt  # the nearest rotation
     C = (A[:, :3, :3] - np.eye(3)).reshape(-1, 3)  # the coefficients of t
     d = (B[:, :3, 3] @ R.T - A[:, :3, 3]).ravel()  # the right-hand side
@@ -211,7 +211,7 @@ def icp_step(T: np.ndarray, source: np.ndarray, target: np.ndarray) -> np.ndarra
     """
     # region 10.9
     now = source @ T[:3, :3].T + T[:3, 3]  # the source after the motion T
-    away = np.sum((now[:, None] - target) ** 2, axis=2)  # the squared distances, (n, m)
+    away = np.sum((now[:, None] - target) ** 2, axis=2)  # the squared distances
     return kabsch(source, target[np.argmin(away, axis=1)])  # the motion of the best fit
     # endregion 10.9
 

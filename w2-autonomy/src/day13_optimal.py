@@ -90,11 +90,11 @@ def linearise(
     """
     # region 13.2
     now = np.eye(len(damping))  # coefficient of the old q in the new q
-    inverse = np.linalg.inv(M + h * np.diag(damping))  # the inverse mass with damping
+    inverse = np.linalg.inv(M + h * np.diag(damping))  # the inverse of M + h D
     by_q = -h * inverse @ stiffness  # coefficient of q in the new velocity
     by_v = inverse @ M  # coefficient of the old velocity in the new velocity
     by_u = h * inverse  # coefficient of u in the new velocity
-    A = np.block([[now + h * by_q, h * by_v], [by_q, by_v]])  # A, with the new q above
+    A = np.block([[now + h * by_q, h * by_v], [by_q, by_v]])  # the matrix A
     return A, np.vstack([h * by_u, by_u])  # A and B
     # endregion 13.2
 
@@ -205,7 +205,7 @@ def box_qp(
         leaves = np.abs(x - np.clip(x - (H @ x + f), lo, hi))  # KKT residual by entry
         if leaves.max() < 1e-12:
             break
-        held[np.argmax(leaves)] = False  # the released entry, which would move most
+        held[np.argmax(leaves)] = False  # the released entry
     return x  # the minimiser
     # endregion 13.5
 
@@ -253,12 +253,12 @@ def ilqr_backward(
     T, n, m = fu.shape  # the numbers of steps, states and inputs
     k, K, drop = np.zeros((T, m)), np.zeros((T, m, n)), np.zeros(2)  # the results
     for t in reversed(range(T)):
-        Qx = lx[t] + fx[t].T @ Vx  # gradient in x of this step and the cost-to-go
+        Qx = lx[t] + fx[t].T @ Vx  # the gradient in x
         Qu = lu[t] + fu[t].T @ Vx  # the gradient in u
         Qxx = lxx[t] + fx[t].T @ Vxx @ fx[t]  # second derivative in x
         Quu = luu[t] + fu[t].T @ Vxx @ fu[t] + mu * np.eye(m)  # second derivative in u
         Qux = lux[t] + fu[t].T @ Vxx @ fx[t]  # the mixed second derivative
-        k[t] = -np.linalg.solve(Quu, Qu)  # open-loop change of the input
+        k[t] = -np.linalg.solve(Quu, Qu)  # open-loop change in the input
         K[t] = -np.linalg.solve(Quu, Qux)  # feedback gain
         drop += k[t] @ Qu, k[t] @ Quu @ k[t] / 2  # the linear and the quadratic part
         Vx = (  # the gradient of the cost-to-go
@@ -279,7 +279,7 @@ def expected_reduction(dV: np.ndarray, alpha: float) -> float:
     expected_reduction([-4, 2], 0.5) -> 1.5
     """
     # region 13.8
-    return -(alpha * dV[0] + alpha**2 * dV[1])  # the negative change of the cost
+    return -(alpha * dV[0] + alpha**2 * dV[1])  # the expected reduction
     # endregion 13.8
 
 
@@ -291,7 +291,7 @@ def reduction_ratio(before: float, after: float, expected: float) -> float:
     reduction_ratio(5, 3.5, 2) -> 0.75
     """
     # region 13.8
-    return (before - after) / expected  # the measured over the expected reduction
+    return (before - after) / expected  # the reduction ratio
     # endregion 13.8
 
 
