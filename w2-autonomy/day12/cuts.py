@@ -90,15 +90,15 @@ def _placed(how: Callable[[Any], int], more: int) -> Any:
 
 
 OPTIONS = [
-    Option("not-sorted", "your code skips a pair if its first row is the larger one. "
-        "Sort the two rows", {"order": list}),
+    Option("not-sorted", "your code skips a pair if its first row is the later one. "
+                         "Sort the two rows", {"order": list}),
     Option("not-checked", "your code removes points without testing the new edge. "
                           "Remove them only if this edge is free",
            {"check": lambda a, b, world: True}),
-    Option("hit-for-free", "your code inverts the test, so it applies shortcuts that "
-                           "are blocked. Apply a shortcut if its edge is free",
+    Option("hit-for-free", "your code inverts the test, so it applies shortcuts whose "
+                           "edge is blocked. Apply a shortcut only if its edge is free",
            {"check": lambda a, b, world: not edge_free(a, b, world)}),
-    Option("only-the-ends-checked", "your code tests only the two ends of the new "
+    Option("only-the-ends-checked", "your code tests only the endpoints of the new "
                                     "edge. Test the whole edge between rows i and j",
      {"check": _ends_free}),
     Option("middle-checked", "your code tests only the midpoint of the new edge. Test "
@@ -126,33 +126,35 @@ OPTIONS = [
       for fixed, does in (
         ("mask", "takes the two rows of each pair from the original path. Use the "
                  "rows of the current path"),
-        ("clamped", "computes the indices with the length of the original path, but "
-                    "it uses them in the current path. Use the length of the current "
-                    "path"),
-        ("skipped", "computes the indices with the length of the original path and "
-                    "uses them in the current path if they still exist. Use the "
-                    "length of the current path"),
+        ("clamped", "computes the indices from the number of rows of the original "
+                    "path, but it applies them to the current path. Use the number of "
+                    "rows of the current path"),
+        ("skipped", "computes the indices from the number of rows of the original "
+                    "path and applies them to the current path if these rows still "
+                    "exist. Use the number of rows of the current path"),
         ("present", "takes the two rows of each pair from the original path if both "
                     "rows still exist. Use the rows of the current path"))),
     *(Option(slug, f"{says}. Use `int(u * m)` instead", {"places": _placed(how, more)})
       for slug, says, how, more in (
-        ("rounded", "your code rounds u m to the nearest integer", round, 0),
-        ("rounded", "your code rounds u (m - 1) to the nearest integer", round, -1),
-        ("rounded-up", "your code rounds u m up", lambda x: int(np.ceil(x)), 0),
-        ("rounded-up", "your code rounds u (m - 1) up", lambda x: int(np.ceil(x)), -1),
-        ("of-m-minus-one", "your code multiplies u by m - 1", int, -1),
-        ("of-m-plus-one", "your code multiplies u by m + 1", int, 1))),
+        ("rounded", "your code rounds `u * m` to the nearest integer", round, 0),
+        ("rounded", "your code rounds `u * (m - 1)` to the nearest integer", round, -1),
+        ("rounded-up", "your code rounds up `u * m`", lambda x: int(np.ceil(x)), 0),
+        ("rounded-up", "your code rounds up `u * (m - 1)`",
+         lambda x: int(np.ceil(x)), -1),
+        ("of-m-minus-one", "your code multiplies u by `m - 1`", int, -1),
+        ("of-m-plus-one", "your code multiplies u by `m + 1`", int, 1))),
     Option("end-never-named", "your code uses `int(u * (m - 1))` for both rows and "
                               "adds 1 to the later row. Use `int(u * m)` for both rows "
                               "instead",
            {"places": lambda pair, m: [
                int(min(pair) * (m - 1)), int(max(pair) * (m - 1)) + 1]}),
-    Option("two-apart-left", "your code skips rows that are two apart. Test these rows "
-                             "too, because the row between them can be removed",
+    Option("two-apart-left", "your code skips pairs of waypoints whose indices differ "
+                             "by 2. Test these pairs too, because the waypoint "
+                             "between them may be removable",
            {"least": 2}),
-    Option("three-apart-left", "your code skips rows that are two or three apart. Test "
-                               "these rows too, because the rows between them can be "
-                               "removed",
+    Option("three-apart-left", "your code skips pairs of waypoints whose indices "
+                               "differ by 2 or 3. Test these pairs too, because the "
+                               "waypoints between them may be removable",
            {"least": 3}),
     Option("pairs-backwards", "your code uses the pairs in reverse order. Start with "
                               "the first pair instead",
@@ -176,7 +178,7 @@ OPTIONS = [
                              "tested edge begins there",
          {"join": _kept(-1, 0)}),
     Option("both-ends-short", "your code also removes rows i and j. Keep both rows, "
-                              "because they are the ends of the tested edge",
+                              "because they are the endpoints of the tested edge",
            {"join": _kept(-1, 1)}),
     Option("one-too-many", "your code keeps the row before j. Remove all rows between "
                            "i and j",

@@ -135,13 +135,13 @@ def _(tree, sample, step, world):
       from the node nearest to the sample instead
     from-the-root: your code extends the tree from its root. Extend the tree from the
       node nearest to the sample instead
-    sample-itself: your code returns the sample itself as the new point. Limit the edge
-      to one step with `steer`
+    sample-itself: your code returns the sample itself as the new point. Use `steer` to
+      limit the edge to one step
     sample-itself 2: your code returns the sample itself as the new point, and it tests
-      the whole edge to the sample. Limit the edge to one step with `steer`
+      the whole edge to the sample. Use `steer` to limit the edge to one step
     point-only: your code tests only the new point. Test the whole edge to the new point
-    node-only: your code tests only the node from which the tree grows. Test the whole
-      edge to the new point
+    node-only: your code tests only the nearest node. Test the whole edge from this node
+      to the new point
     always-free: your code reports every edge as free. Test the edge from the nearest
       node to the new point
     never-free: your code reports every edge as blocked. Test the edge from the nearest
@@ -150,21 +150,21 @@ def _(tree, sample, step, world):
       the edge from the nearest node to the new point instead
     edge-to-the-sample: your code tests the edge to the sample. Test only the edge to
       the new point
-    edge-of-two-steps: your code tests an edge of two steps. Test only the edge to the
-      new point, which is at most one step long
+    edge-of-two-steps: your code tests an edge that is two steps long. Test only the
+      edge to the new point, which is at most one step long
     edge-on-from-there: your code tests the edge from the new point to the sample. Test
-      the edge from the nearest node to the new point
+      the edge from the nearest node to the new point instead
     hit-for-free: your code negates the third result. Return True if the edge is free
     stays-where-blocked: your code returns the nearest node if the edge is not free.
-      Return the new point in both cases
+      Return the new point even in this case
     index-of-the-new: your code returns the index of the new node. Return the index of
-      the node from which the tree grows
+      the nearest node instead
     away: your code extends the tree away from the sample. Call `steer` with the node
       first and the sample second
-    from-the-sample: your code steers from the sample to the node. Steer from the node
-      to the sample
-    from-the-sample 2: your code steers from the sample to the node. Steer from the node
-      to the sample
+    from-the-sample: your code steers from the sample to the nearest node. Steer from
+      this node to the sample instead
+    from-the-sample 2: your code steers from the sample to the nearest node. Steer from
+      this node to the sample instead
     farthest: your code extends the tree from the node farthest from the sample. Extend
       the tree from the nearest node instead
     largest-difference: your code selects the nearest node by the largest coordinate
@@ -176,31 +176,35 @@ def _(tree, sample, step, world):
     squared-for-plain: your code divides the step by the squared distance to the sample.
       Divide the step by the distance instead
     root-to-the-sample: your code tests the edge from the root to the sample. Test the
-      edge from the nearest node to the new point
-    standing-is-blocked: your code reports a blocked edge if the sample equals a node.
-      Report this edge as free if the node is free
-    own-is-free: your code reports every edge as free in a world with its own method
-      `edge_free`. Call this method to test the edge
-    own-is-blocked: your code reports every edge as blocked in a world with its own
-      method `edge_free`. Call this method to test the edge
-    free-if-reached: your code reports a free edge only if the step reaches the sample.
-      Return the result of the edge test even if the step does not reach the sample
+      edge from the nearest node to the new point instead
+    standing-is-blocked: if the sample equals a node, your code reports the edge as
+      blocked. Report the edge as free if the node is collision-free
+    own-is-free: if the world has its own method `edge_free`, your code reports every
+      edge as free. Call this method to test the edge
+    own-is-blocked: if the world has its own method `edge_free`, your code reports every
+      edge as blocked. Call this method to test the edge
+    free-if-reached: your code reports an edge as free only if the step reaches the
+      sample. Return the result of the edge test even if the step does not reach the
+      sample
     reached-is-free: your code does not test the edge if the step reaches the sample.
       Test every edge
-    ends-only: your code tests only the two ends of the edge. Test the points between
+    ends-only: your code tests only the endpoints of the edge. Test the points between
       them too
-    twice-a-step: your code adds an edge of two steps. Limit the edge to one step
-    half-a-step: your code adds an edge of half a step. Use the whole step
-    unit-step: your code adds an edge of length 1. Use the argument `step` as the length
-      instead
+    twice-a-step: your code returns a point two steps from the nearest node. Limit this
+      distance to one step
+    half-a-step: your code moves only half a step from the nearest node. Use the whole
+      step
+    unit-step: your code moves a distance of 1 from the nearest node. Use the argument
+      `step` as the distance instead
     added-twice: your code adds the result of `steer` to the node. Return the result
       itself, because `steer` returns a point and not a displacement
-    nearest-of-the-free: your code selects the nearest node among those with a free
-      edge. Select the nearest of all nodes, and report whether its edge is free
+    nearest-of-the-free: your code selects the nearest node among the nodes whose edge
+      is free. Select the nearest of all nodes instead, and report whether its edge is
+      free
     sample-where-blocked: your code returns the sample if the edge is not free. Return
-      the new point in both cases
+      the new point even in this case
     part-of-the-way: your code shortens the edge until it is free. Leave the new point
-      unchanged, and return False if the whole edge is not free
+      unchanged, and return False if any part of the edge is blocked
     """
     own = world is not discs_of(world)
     world = discs_of(world)

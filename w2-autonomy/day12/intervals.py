@@ -106,16 +106,18 @@ OPTIONS = [
             ("one-for-z2", "1 / (2 n)", lambda z, n: 1 / (2 * n)))
     ]),
     *_each("front", [
-        ("z-forgotten", "your code omits the factor z before the root. Multiply the "
-                        "root by z", lambda z: 1.0),
-        ("z-squared", "your code multiplies the root by z^2. Multiply it by z instead",
+        ("z-forgotten", "your code omits the factor z before the square root. "
+                        "Multiply the square root by z", lambda z: 1.0),
+        ("z-squared", "your code multiplies the square root by z^2. Multiply it by z "
+                      "instead",
          lambda z: z * z),
-        ("half-width", "your code multiplies the root by z / 2. Multiply it by z "
-                       "instead",
+        ("half-width", "your code multiplies the square root by z / 2. Multiply it by "
+                       "z instead",
          lambda z: z / 2),
     ]),
     *_each("noise", [
-        (slug, f"your code uses {says} under the root. Use p (1 - p) / n instead", of)
+        (slug, f"your code uses {says} under the square root. Use `p (1 - p) / n` "
+               "instead", of)
         for slug, says, of in (
             ("n-less-one", "p (1 - p) / (n - 1)",
              lambda p, n: p * (1 - p) / max(n - 1, 1)),
@@ -129,8 +131,8 @@ OPTIONS = [
             ("noise-forgotten", "0 for p (1 - p) / n", lambda p, n: 0.0))
     ]),
     *_each("more", [
-        (slug, f"your code uses {says} as the second term under the root. Use z^2 / (4 "
-               f"n^2) instead", of)
+        (slug, f"your code uses {says} as the second term under the square root. Use "
+               "z^2 / (4 n^2) instead", of)
         for slug, says, of in (
             ("width-without-z2", "0", lambda z, n: 0.0),
             ("n-for-n2", "z^2 / (4 n)", lambda z, n: z**2 / (4 * n)),
@@ -182,26 +184,26 @@ OPTIONS = [
          lambda ends, n: 100 * ends),
         ("counts", "your code returns counts. Return proportions instead",
          lambda ends, n: n * ends),
-        ("cut", "your code clamps the ends to [0.01, 0.99]. Omit this clamp",
+        ("cut", "your code clamps the bounds to [0.01, 0.99]. Omit this clamp",
          lambda ends, n: np.clip(ends, 0.01, 0.99)),
-        ("cut", "your code clamps the ends to [0, 1]. Omit this clamp, because the "
-                "ends of a Wilson interval never lie outside this range",
+        ("cut", "your code clamps the bounds to [0, 1]. Omit this clamp, because the "
+                "bounds of a Wilson interval never lie outside this range",
          lambda ends, n: np.clip(ends, 0, 1)),
-        ("high-first", "your code returns the upper end first. Return the lower end "
-                       "first",
+        ("high-first", "your code returns the upper bound first. Return the lower "
+                       "bound first",
          lambda ends, n: ends[::-1]),
-        ("low-is-zero", "your code always returns 0 as the lower end. Compute the "
-                        "lower end too, because the interval has two sides",
+        ("low-is-zero", "your code always returns 0 as the lower bound. Compute the "
+                        "lower bound too, because the interval has two sides",
          lambda ends, n: np.array([0.0, ends[1]])),
-        ("high-is-one", "your code always returns 1 as the upper end. Compute the "
-                        "upper end too, because the interval has two sides",
+        ("high-is-one", "your code always returns 1 as the upper bound. Compute the "
+                        "upper bound too, because the interval has two sides",
          lambda ends, n: np.array([ends[0], 1.0])),
-        ("low-alone", "your code returns the lower end twice. Return both ends",
+        ("low-alone", "your code returns the lower bound twice. Return both bounds",
          lambda ends, n: ends[[0, 0]]),
-        ("high-alone", "your code returns the upper end twice. Return both ends",
+        ("high-alone", "your code returns the upper bound twice. Return both bounds",
          lambda ends, n: ends[[1, 1]]),
         ("middle-and-width", "your code returns the centre and the half-width. Return "
-                             "the two ends instead", lambda ends, n:
+                             "the two bounds instead", lambda ends, n:
          np.array([ends.mean(), np.diff(ends)[0] / 2])),
     ]),
     *_each("none", [

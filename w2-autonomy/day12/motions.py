@@ -137,14 +137,14 @@ def _same_limit(choose: Callable[[Array], float]) -> Any:
 OPTIONS = [
     *(Option(slug, says, {"two_ds": of}, alone="points" in slug)
       for slug, says, of in (
-        ("ds-for-2-ds", "your code adds ds sdd to sd^2 in each step. Add 2 ds sdd "
-                        "instead",
+        ("ds-for-2-ds", "your code adds `ds * sdd` to sd^2 in each step. Add `2 * ds "
+                        "* sdd` instead",
          lambda n: 1 / n),
-        ("four-ds", "your code adds 4 ds sdd to sd^2 in each step. Add 2 ds sdd "
-                    "instead",
+        ("four-ds", "your code adds `4 * ds * sdd` to sd^2 in each step. Add `2 * ds "
+                    "* sdd` instead",
          lambda n: 4 / n),
-        ("half-ds", "your code adds ds sdd / 2 to sd^2 in each step. Add 2 ds sdd "
-                    "instead",
+        ("half-ds", "your code adds `ds * sdd / 2` to sd^2 in each step. Add `2 * ds "
+                    "* sdd` instead",
          lambda n: 0.5 / n),
         ("points-for-steps", "your code uses ds = 1 / (N + 1). Use ds = 1 / N, because "
                              "N + 1 points have N steps between them",
@@ -193,24 +193,26 @@ OPTIONS = [
                                   "by the result of the backward pass instead",
          "smaller"))),
     *(Option("few-bisections", f"your bisection stops too early, after {n} halvings. "
-                              "Halve the interval more often",
+                               "Use more iterations",
            {"bisections": n}, alone=True)
       for n in (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20)),
-    Option("bobrow", "your code computes the smallest sdd at the end of each step in "
-                     "the backward pass. Compute it at the first point of the step "
+    Option("bobrow", "in the backward pass, your code computes the smallest sdd at "
+                     "the end of each step. Compute it at the first point of the step "
                      "instead",
            {"swept": True}),
     Option("limits-of-the-next-point", "your code computes the bounds on sdd at the "
                                        "end of each step in both passes. Compute them "
                                        "at the first point of the step instead",
            {"back_at": 1, "at": 1}),
-    Option("limits-of-the-next-point", "your code computes the bounds on sdd at the "
-                                       "end of each step in the backward pass. Compute "
-                                       "them at the first point of the step instead",
+    Option("limits-of-the-next-point", "in the backward pass, your code computes the "
+                                       "bounds on sdd at the end of each step. "
+                                       "Compute them at the first point of the step "
+                                       "instead",
         {"back_at": 1}),
-    Option("limits-of-the-next-point", "your code computes the bounds on sdd at the "
-                                       "end of each step in the forward pass. Compute "
-                                       "them at the first point of the step instead",
+    Option("limits-of-the-next-point", "in the forward pass, your code computes the "
+                                       "bounds on sdd at the end of each step. "
+                                       "Compute them at the first point of the step "
+                                       "instead",
         {"at": 1}),
     *(Option(slug, says, {"pull": of}, alone=True) for slug, says, of in (
         ("limits-of-the-first-point", "your code uses `a`, `b` and `c` of the first "
@@ -221,7 +223,7 @@ OPTIONS = [
                                      "point in every step. Use the values of each "
                                      "point instead",
          lambda *rows: tuple(np.broadcast_to(x[-1], x.shape) for x in rows)),
-        ("gravity-forgotten", "your code omits gravity in the torques. Include the "
+        ("gravity-forgotten", "your code omits gravity from the torques. Include the "
                               "term `c`",
          lambda A, B, G: (A, B, 0 * G)),
         ("gravity-of-the-first-point", "your code uses the gravity torque of the first "
@@ -230,7 +232,7 @@ OPTIONS = [
          lambda A, B, G: (A, B, np.broadcast_to(G[0], G.shape))),
         ("gravity-sign", "your code reverses the sign of gravity. Use `c` itself",
          lambda A, B, G: (A, B, -G)),
-        ("coriolis-forgotten", "your code omits `b * sd**2` in the torques. Include "
+        ("coriolis-forgotten", "your code omits `b * sd**2` from the torques. Include "
                                "this term",
          lambda A, B, G: (A, 0 * B, G)),
         ("coriolis-sign", "your code reverses the sign of `b`. Use `b` itself",
@@ -263,8 +265,9 @@ OPTIONS = [
                          "with `sd2_max` itself", np.sqrt))),
     *(Option(slug, says, {"stands": of}) for slug, says, of in (
         ("cannot-stand-goes", "your code returns a nonzero motion although gravity "
-                              "alone exceeds a torque limit. Return zeros, because the "
-                              "arm cannot stay at rest at such a point",
+                              "alone exceeds a torque limit at some point. Return "
+                              "zeros in this case, because the arm cannot hold still "
+                              "at that point",
          lambda G, limits: False),
         ("all-points-too-heavy", "your code returns zeros only if gravity exceeds a "
                                  "torque limit at every point. Return zeros if gravity "
@@ -273,8 +276,8 @@ OPTIONS = [
         ("first-point-alone", "your code compares gravity with the torque limits "
                               "only at the first point. Compare it at every point",
          lambda G, limits: np.any(np.abs(G[0]) > limits)),
-        ("ends-alone", "your code compares gravity with the torque limits only at "
-                       "the two ends. Compare it at every point",
+        ("ends-alone", "your code compares gravity with the torque limits only at the "
+                       "first and the last point. Compare it at every point",
          lambda G, limits: np.any(np.abs(G[[0, -1]]) > limits)),
         ("gravity-with-sign", "your code compares the signed gravity torque with the "
                               "torque limits. Compare its absolute value instead, "
@@ -286,9 +289,10 @@ OPTIONS = [
         ("allowed", "any sdd is permitted at this speed (low <= high)"),
         ("after", "the motion can slow down to the maximum of the next point"),
         ("turning", "the largest sdd keeps sd^2 at 0 or above"))),
-    Option("most-of-the-point-before", "your code limits sd^2 at i + 1 by the maximum "
-                                       "at i in the forward pass. Use the maximum at "
-                                       "i + 1 instead", {"kept": 0}),
+    Option("most-of-the-point-before", "in the forward pass, your code limits sd^2 at "
+                                       "point i + 1 by the maximum at point i. Use "
+                                       "the maximum at point i + 1 instead",
+           {"kept": 0}),
     *(Option(slug, f"your code uses the {word} torque limit for every joint. Use each "
                    f"joint's own limit instead",
              {"ranges": _same_limit(choose)}, alone=True) for slug, word, choose in (
@@ -299,7 +303,7 @@ OPTIONS = [
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a, b, g, limits / 2, sd)}),
     Option("first-joint-only", "your code uses only the first joint. Use all joints, "
-                               "because every joint limits sdd",
+                               "because every joint can limit sdd",
            {"ranges": lambda a, b, g, limits, sd: path_accel_bounds(
                a[:1], b[:1], g[:1], limits[:1], sd)}),
     *(Option(slug, says, {"out": of}) for slug, says, of in (

@@ -137,7 +137,7 @@ def _(tree, q):
     q-added: your code adds q to the nodes. Subtract q from the nodes instead
     most-alike: your code compares the dot products of the nodes with q. Compare the
       distances instead, because a dot product also grows with the norm of the node
-    place-of-the-distance: your code returns the rank of the root in the sorted
+    place-of-the-distance: your code returns the rank of the root's distance among all
       distances. Return the index of the smallest distance instead
     counted-from-the-end: your code counts the index from the end of the tree. Count the
       index from the root, which is row 0
@@ -147,35 +147,35 @@ def _(tree, q):
       in all coordinates
     first-left-out: your code does not compare the first coordinate. Use the distance in
       all coordinates
-    cubed: your code cubes the differences, so they keep their signs and cancel. Square
-      the differences instead
+    cubed: your code cubes the differences, so positive and negative terms cancel.
+      Square the differences instead
     length-for-place: your code compares the norms of the nodes with the norm of q.
       Compare the distances instead, because two points with the same norm can be far
       apart
     angle: your code selects the node at the smallest angle to q. Select the node at the
       smallest distance instead
-    second-nearest: your code returns the second nearest node. Return the nearest node
+    second-nearest: your code returns the second-nearest node. Return the nearest node
       instead
     least-not-kept: your code compares each distance only with the distance of the root.
       Compare it with the smallest distance so far instead
     row-before: your code compares each distance only with the distance of the previous
       row. Compare it with the smallest distance so far instead
-    first-that-is-nearer: your code stops at the first row that is nearer than the root.
-      Test all rows
+    first-that-is-nearer: your code stops at the first node that is nearer to q than the
+      root is. Compare all nodes
     rounded: your code rounds the distances before it compares them. Omit the rounding,
-      because two different distances can become equal
+      because it can make two different distances equal
     rounded 2: your code rounds the distances before it compares them. Omit the
-      rounding, because two different distances can become equal
-    root-left-out: your code skips the root, row 0. Include it, because the root can be
-      the nearest node
-    root-left-out 2: your code skips the root, row 0, and counts the other rows from 0.
-      Include the root, so that the index of the root is 0
-    last-left-out: your code skips the last row. Include it, because the last node can
-      be the nearest
+      rounding, because it can make two different distances equal
+    root-left-out: your code skips the root (row 0). Include the root, because the root
+      can be the nearest node
+    root-left-out 2: your code skips the root (row 0) and counts the other rows from 0.
+      Include the root, whose index is 0
+    last-left-out: your code skips the last row. Include this row, because the last node
+      can be the nearest
     over-all-numbers: your code searches for the minimum over all entries of the tree.
-      Sum the squares along axis 1 first, because each row has one distance
-    sum-of-columns: your code sums the squares along axis 0. Sum along axis 1, because
-      each row is a node
+      Sum the squares along axis 1 first, so that each row has one distance
+    sum-of-columns: your code sums the squares along axis 0. Sum the squares along axis
+      1 instead, because each row is a node
     itself-left-out: your code skips a node that equals q. Include this node, because
       its distance is 0
     largest-with-sign: your code compares the nodes by their largest signed coordinate

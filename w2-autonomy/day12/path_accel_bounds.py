@@ -170,7 +170,7 @@ def _of_holding(rest, pull, c, limits, moves, free):
 @row.wrongs
 def _(a, b, c, limits, sd):
     """not-sorted: your code swaps the lower and the upper bound of a joint with a
-      negative `a`. Sort the two quotients
+      negative `a`. Sort the two quotients of each joint
     speed-forgotten: your code omits the term `b * sd**2`. Subtract it from both torque
       limits
     speed-sign: your code adds `b * sd**2` to the torque limits. Subtract `b * sd**2`
@@ -191,16 +191,16 @@ def _(a, b, c, limits, sd):
     least-of-both: your code uses the minimum of the joints' lower bounds as the lower
       bound. Use their maximum instead
     first-joint-only: your code uses only the first joint. Use all joints, because every
-      joint limits sdd
+      joint can limit sdd
     first-joint-only 2: your code uses only the first joint with a nonzero `a`. Use all
-      joints, because every joint limits sdd
+      joints, because every joint can limit sdd
     last-joint-only: your code uses only the last joint. Does your loop overwrite the
       earlier bounds?
     half-the-limit: your code uses only half of each torque limit. Use the whole limit
     not-divided: your code returns torques. Divide the torques by `a`
     times-a: your code multiplies the torques by `a`. Divide the torques by `a` instead
-    one-limit: your code permits torques from 0 to the limit. Permit torques from -limit
-      to limit
+    one-limit: your code permits torques from 0 to the limit. Permit torques from
+      `-limit` to `limit` instead
     greatest-first: your code returns the upper bound first. Return the lower bound
       first
     greatest-first 2: your code returns the upper bound first, unless a joint with `a` =
@@ -233,27 +233,27 @@ def _(a, b, c, limits, sd):
       bound. Take the minimum over all joints instead
     last-joint-least: your code returns the last joint's lower bound as the lower bound.
       Take the maximum over all joints instead
-    mean-of-joints: your code takes the means of the joints' bounds. Take the maximum of
-      the lower bounds and the minimum of the upper bounds instead
-    sum-of-joints: your code adds the joints' bounds. Take the maximum of the lower
-      bounds and the minimum of the upper bounds instead
+    mean-of-joints: your code averages the bounds of the joints. Take the maximum of the
+      lower bounds and the minimum of the upper bounds instead
+    sum-of-joints: your code adds the bounds of the joints. Take the maximum of the
+      lower bounds and the minimum of the upper bounds instead
     from-zero: your code starts both bounds at 0. Start the lower bound at -inf and the
       upper bound at inf
-    last-joint-only 2: your code replaces the bounds at each joint. Keep the largest
+    last-joint-only 2: your code overwrites the bounds at each joint. Keep the largest
       lower bound and the smallest upper bound of all joints
     never-narrowed: your code swaps `min` and `max`, so the bounds stay infinite. Keep
       the largest lower bound and the smallest upper bound
     zero-kept-in: your code returns an interval that always contains 0. Return the
-      bounds themselves, because sdd = 0 need not be permitted
+      bounds themselves, because sdd = 0 is not always permitted
     six-joints: your code uses only the first six joints. Use all joints, because the
       arm can have any number of joints
     first-left-out: your code skips the first joint. Use all joints, because every joint
-      limits sdd
+      can limit sdd
     none-is-zero 3: your code returns (0, 0) if the joints permit no common sdd,
       although this result permits sdd = 0. Leave the lower bound above the upper bound
     none-is-infinite: your code returns (inf, -inf) if the joints permit no common sdd.
-      Return the bounds themselves, because (inf, -inf) is reserved for a joint with `a`
-      = 0
+      Return the computed bounds instead, because (inf, -inf) is reserved for a joint
+      with `a` = 0 beyond its limit
     no-mover-is-none: your code returns (inf, -inf) if every `a` is 0 and every torque
       is within its limit. Return (-inf, inf), because any sdd is permitted
     held-by-gravity-alone: for a joint with `a` = 0, your code compares only `c` with
@@ -263,19 +263,20 @@ def _(a, b, c, limits, sd):
     held-with-sign: for a joint with `a` = 0, your code compares the signed torque with
       the limit. Compare the absolute value instead, because the limit also applies to
       negative torques
-    all-have-to-hold: your code compares `b * sd**2 + c` with the limit also for joints
-      with a nonzero `a`. Make this comparison only for joints with `a` = 0
+    all-have-to-hold: for joints with a nonzero `a`, your code also compares `b * sd**2
+      + c` with the limit. Make this comparison only for joints with `a` = 0
     any-that-holds: your code accepts the speed if at least one joint with `a` = 0 is
-      within its limit. Accept the speed only if all these joints are within their
-      limits
+      within its limit. Accept the speed only if all joints with `a` = 0 are within
+      their limits
     small-is-zero: your code treats a small `a` as 0. Compare `a` with 0 exactly,
       because a joint with a small `a` still limits sdd
     small-is-zero 2: your code treats a small `a` as 0. Compare `a` with 0 exactly,
       because a joint with a small `a` still limits sdd
     small-is-zero 3: your code treats a small `a` as 0. Compare `a` with 0 exactly,
       because a joint with a small `a` still limits sdd
-    held-below-its-limit: your code rejects a joint with `a` = 0 whose torque equals its
-      limit. Accept this joint, because its torque does not exceed the limit
+    held-below-its-limit: your code returns (inf, -inf) if the torque of a joint with
+      `a` = 0 equals its limit. Skip such a joint, because its torque does not exceed
+      the limit
     """
     pull = b * sd**2
     rest = pull + c
@@ -365,8 +366,8 @@ def _(a, b, c, limits, sd):
 
 @row.wrong
 def zero_divides(a, b, c, limits, sd):
-    """your code divides by 0 for a joint with a = 0. Skip such a joint if its torque is
-    within its limit, because it does not limit sdd"""
+    """your code divides by 0 for a joint with `a` = 0. Skip such a joint if its torque
+    is within its limit, because it does not limit sdd"""
     with np.errstate(all="ignore"):
         ends = np.sort((np.array([-limits, limits]) - b * sd**2 - c) / a, axis=0)
     return np.array([ends[0].max(), ends[1].min()])

@@ -49,18 +49,18 @@ def _(rng):
 
 @row.wrongs
 def _(M, dq_ds, d2q_ds2, coriolis, gravity):
-    """ddq-forgotten: your code omits `M @ d2q_ds2` in `b`. Add this term, because the
+    """ddq-forgotten: your code omits `M @ d2q_ds2` from `b`. Add this term, because the
       joints accelerate on a curved path even if sd is constant
     bias-for-coriolis: your code also adds gravity to `b`. Add gravity only to `c`,
       because the gravity torque does not depend on sd
-    gravity-off-coriolis: your code subtracts gravity in `b`. Use `coriolis` unchanged,
-      because it does not contain gravity
-    m-forgotten: your code omits the mass matrix in `a`. Multiply `dq_ds` by the mass
+    gravity-off-coriolis: your code subtracts gravity from the Coriolis torque in `b`.
+      Use `coriolis` unchanged, because it does not contain gravity
+    m-forgotten: your code omits the mass matrix from `a`. Multiply `dq_ds` by the mass
       matrix
-    m-forgotten 2: your code omits the mass matrix in `b`. Multiply `d2q_ds2` by the
+    m-forgotten 2: your code omits the mass matrix from `b`. Multiply `d2q_ds2` by the
       mass matrix
-    m-forgotten 3: your code omits the mass matrix in both `a` and `b`. Multiply `dq_ds`
-      and `d2q_ds2` by the mass matrix
+    m-forgotten 3: your code omits the mass matrix from both `a` and `b`. Multiply
+      `dq_ds` and `d2q_ds2` by the mass matrix
     diagonal-only: your code uses only the diagonal of the mass matrix. Use the whole
       matrix, because the joints are coupled
     diagonal-only 2: your code uses only the diagonal of the mass matrix in `a`. Use the
@@ -92,8 +92,8 @@ def _(M, dq_ds, d2q_ds2, coriolis, gravity):
     rows-summed: your code multiplies the sum of each row of M by the entry of `dq_ds`
       or `d2q_ds2` for that joint. Use the matrix product with M instead
     trace: your code multiplies by the trace of M. Use the matrix product with M instead
-    first-row: your code multiplies only the first row of M, entry by entry. Use the
-      matrix product with M instead
+    first-row: your code multiplies `dq_ds` and `d2q_ds2` by only the first row of M,
+      entry by entry. Use the matrix product with M instead
     """
     right = path_dynamics(M, dq_ds, d2q_ds2, coriolis, gravity)
     a, b, g = right

@@ -163,28 +163,31 @@ def one_tree(
 
 OPTIONS = [
     Option("swap-when-it-grew", "your code swaps the trees only after a sample that "
-                                "made a tree grow. Swap the trees after every sample",
+                                "adds a node to a tree. Swap the trees after every "
+                                "sample",
            {"turn": "grew"}),
-    Option("swap-when-it-failed", "your code swaps the trees only after a blocked "
-                                  "sample. Swap the trees after every sample",
+    Option("swap-when-it-failed", "your code swaps the trees only after a sample "
+                                  "whose edge is blocked. Swap the trees after every "
+                                  "sample",
            {"turn": "failed"}),
-    Option("trees-not-swapped", "your code extends the start's tree with every sample. "
-                                "Extend the goal's tree with samples 1, 3, 5 and so on",
+    Option("trees-not-swapped", "your code extends the start's tree towards every "
+                                "sample. Extend the goal's tree towards samples 1, 3, "
+                                "5 and so on",
            {"turn": "never"}),
-    Option("goal-first", "your code extends the goal's tree with sample 0. Extend the "
-                         "start's tree with sample 0 instead", {"turn": "goal"}),
-    Option("halves", "your code extends the start's tree with the first half of the "
-                     "samples and the goal's tree with the second half. Alternate "
-                     "after every sample",
+    Option("goal-first", "your code extends the goal's tree towards sample 0. Extend "
+                         "the start's tree towards sample 0 instead", {"turn": "goal"}),
+    Option("halves", "your code extends the start's tree towards the first half of "
+                     "the samples and the goal's tree towards the second half. "
+                     "Alternate after every sample",
            {"turn": lambda k, used, nodes: int(2 * k >= len(used))}),
-    Option("two-in-turn", "your code extends the start's tree with samples 0 and 1 "
-                          "and the goal's tree with samples 2 and 3. Alternate after "
-                          "every sample",
+    Option("two-in-turn", "your code extends the start's tree towards samples 0 and 1 "
+                          "and the goal's tree towards samples 2 and 3. Alternate "
+                          "after every sample",
            {"turn": lambda k, used, nodes: k // 2 % 2}),
-    Option("one-of-three", "your code extends the goal's tree only with every third "
-                           "sample. Alternate after every sample",
+    Option("one-of-three", "your code extends the goal's tree only towards every "
+                           "third sample. Alternate after every sample",
            {"turn": lambda k, used, nodes: int(k % 3 == 2)}),
-    Option("smaller-tree", "your code extends the smaller tree with each sample. "
+    Option("smaller-tree", "your code extends the smaller tree towards each sample. "
                            "Alternate after every sample",
            {"turn": lambda k, used, nodes: int(len(nodes[1]) < len(nodes[0]))}),
     Option("blocked-tries-the-other", "your code extends the other tree towards a "
@@ -231,7 +234,7 @@ OPTIONS = [
                                     "node. Pass all nodes to `extend`, which finds the "
                                     "nearest node",
            {"grows": "newest"}),
-    Option("not-checked", "your code adds nodes even if their edge is not free. Add a "
+    Option("not-checked", "your code adds a node even if its edge is not free. Add a "
                           "node only if the third result of `extend` is True",
            {"free": True}),
     Option("blocked-goes-on", "your code extends the other tree even after a blocked "
@@ -256,8 +259,8 @@ OPTIONS = [
     Option("every-other-sample", "your code uses only every second sample. Use all "
                                  "samples",
            {"used": lambda some: some[::2]}),
-    Option("sample-twice", "your code extends both trees with each sample. Extend "
-                           "only one tree with each sample",
+    Option("sample-twice", "your code extends both trees towards each sample. Extend "
+                           "only one tree towards each sample",
            {"used": lambda some: np.repeat(some, 2, axis=0)}),
     Option("samples-backwards", "your code uses the samples in reverse order. Start "
                                 "with sample 0 instead",
@@ -266,8 +269,8 @@ OPTIONS = [
            {"used": lambda some: some[1:]}),
     Option("last-sample-left-out", "your code skips the last sample. Use all samples",
            {"used": lambda some: some[:-1]}),
-    Option("not-turned-round", "your path contains the start's branch from the newest "
-                               "node to the root. Reverse this branch",
+    Option("not-turned-round", "your path contains the start's branch in the order "
+                               "from the newest node to the root. Reverse this branch",
            {"joined": lambda a, b: a + b[1:]}),
     Option("goal-branch-turned", "your code reverses the goal's branch. Keep its "
                                  "order, because it already runs from the meeting "

@@ -110,14 +110,14 @@ def _(start, goal, world, samples, step, path):
 
 @row.wrongs
 def _(start, goal, world, samples, step):
-    """swap-when-it-grew: your code swaps the trees only after a sample that made a tree
-      grow. Swap the trees after every sample
-    swap-when-it-failed: your code swaps the trees only after a blocked sample. Swap the
-      trees after every sample
-    trees-not-swapped: your code extends the start's tree with every sample. Extend the
-      goal's tree with samples 1, 3, 5 and so on
-    goal-first: your code extends the goal's tree with sample 0. Extend the start's tree
-      with sample 0 instead
+    """swap-when-it-grew: your code swaps the trees only after a sample that adds a node
+      to a tree. Swap the trees after every sample
+    swap-when-it-failed: your code swaps the trees only after a sample whose edge is
+      blocked. Swap the trees after every sample
+    trees-not-swapped: your code extends the start's tree towards every sample. Extend
+      the goal's tree towards samples 1, 3, 5 and so on
+    goal-first: your code extends the goal's tree towards sample 0. Extend the start's
+      tree towards sample 0 instead
     connect-one-step: your code adds only one edge to the other tree. Add edges until an
       edge is blocked or the new node is reached
     connect-to-the-sample: your code extends the other tree towards the sample. Extend
@@ -129,14 +129,14 @@ def _(start, goal, world, samples, step):
       length. Add edges of at most one step instead
     parent-is-the-newest: your path contains every node of both trees. Store the index
       that `extend` returns as the parent of each new node
-    not-turned-round: your path contains the start's branch from the newest node to the
-      root. Reverse this branch
+    not-turned-round: your path contains the start's branch in the order from the newest
+      node to the root. Reverse this branch
     goal-to-start: your code returns the path from the goal to the start. Reverse the
       path
     half-the-path: your code returns only the start's branch. Append the goal's branch
     half-the-path 2: your code returns only the goal's branch. Put the start's branch
       before the goal's branch
-    not-checked: your code adds nodes even if their edge is not free. Add a node only if
+    not-checked: your code adds a node even if its edge is not free. Add a node only if
       the third result of `extend` is True
     meeting-point-twice: your path contains the meeting node of the two trees twice.
       Include this node once
@@ -151,7 +151,8 @@ def _(start, goal, world, samples, step):
     first-sample-left-out: your code skips the first sample. Use all samples
     last-sample-left-out: your code skips the last sample. Use all samples
     straight-tried-first: your code tests the edge from the start to the goal before the
-      first sample. Omit this test, because there should be no path without samples
+      first sample. Omit this test, because the planner should find no path without
+      samples
     """
     given = (start, goal, world, samples, step)
     right = rrt_connect(*given)

@@ -212,100 +212,110 @@ def _others(a, b, discs, part, away):
 )
 def _(a, b, discs):
     """line-for-segment: your code does not clamp the parameter of the nearest point.
-      Clamp it to [0, 1], because otherwise a disc beyond an end of the edge blocks the
-      edge
-    only-one-end-cut: your code clamps the parameter of the nearest point at 1, but not
-      at 0. Clamp it to [0, 1], because the edge begins at `a`
-    only-one-end-cut 2: your code clamps the parameter of the nearest point at 0, but
-      not at 1. Clamp it to [0, 1], because the edge ends at `b`
-    ends-only: your code tests only the two ends of the edge. Test the whole edge,
-      because the edge can cross a disc between its ends
-    new-end-only: your code tests only the end `b`. Test the whole edge
-    start-only: your code tests only the start `a`. Test the whole edge
+      Clamp it to [0, 1], because otherwise a disc beyond an endpoint can block the edge
+    only-one-end-cut: your code does not clamp the parameter of the nearest point if it
+      is negative. Clamp the parameter to [0, 1], because it is 0 at `a`, where the edge
+      begins
+    only-one-end-cut 2: your code does not clamp the parameter of the nearest point if
+      it is above 1. Clamp the parameter to [0, 1], because it is 1 at `b`, where the
+      edge ends
+    ends-only: your code tests only the endpoints of the edge. Test the whole edge,
+      because it can cross a disc between its endpoints
+    new-end-only: your code tests only the endpoint `b`. Test the whole edge
+    start-only: your code tests only the endpoint `a`. Test the whole edge
     middle-only: your code tests only the midpoint of the edge. Test the whole edge
     points-only: your code tests only some points of the edge. Use the point of the edge
-      nearest to the centre, because a small disc can lie between two tested points
+      nearest to each centre instead, because a small disc can lie between two tested
+      points
     points-only 2: your code tests only some points of the edge. Use the point of the
-      edge nearest to the centre, because a small disc can lie between two tested points
+      edge nearest to each centre instead, because a small disc can lie between two
+      tested points
     points-only 3: your code tests only some points of the edge. Use the point of the
-      edge nearest to the centre, because a small disc can lie between two tested points
+      edge nearest to each centre instead, because a small disc can lie between two
+      tested points
     points-only 4: your code tests only some points of the edge. Use the point of the
-      edge nearest to the centre, because a small disc can lie between two tested points
+      edge nearest to each centre instead, because a small disc can lie between two
+      tested points
     points-only 5: your code misses discs that cover only a small part of the edge.
-      Compute the nearest point of the edge exactly
+      Compute the point of the edge nearest to each centre exactly
     points-only 6: your code misses discs that cover only a small part of the edge.
-      Compute the nearest point of the edge exactly
+      Compute the point of the edge nearest to each centre exactly
     inside-is-free: your code tests only whether the edge crosses the circle. Report an
       edge inside a disc as blocked too, because the whole disc is an obstacle
     inside-is-free 2: your code tests only whether the edge crosses the circle. Report
       an edge or a point inside a disc as blocked too, because the whole disc is an
       obstacle
-    inner-only: your code skips a disc if the nearest point of the line lies beyond an
-      end of the edge. Test the distance of this end, because the end can lie in the
-      disc
-    inner-only 2: your code skips a disc if the nearest point of the line lies beyond an
-      end, unless the edge is a point. Test the distance of this end, because the end
-      can lie in the disc
+    inner-only: your code skips a disc if the nearest point of the infinite line lies
+      beyond an endpoint of the edge. Use the distance from the centre to this endpoint,
+      because the endpoint can lie in the disc
+    inner-only 2: for an edge of nonzero length, your code skips a disc if the nearest
+      point of the infinite line lies beyond an endpoint. Use the distance from the
+      centre to this endpoint, because the endpoint can lie in the disc
     first-disc-only: your code tests only the first disc. Test every disc, because the
       edge must miss all of them
-    last-disc-only: your code tests only the last disc. Does a loop return too early or
-      overwrite the result?
-    nearest-centre: your code tests only the disc with the nearest centre. Test every
-      disc, because a disc farther away can be larger
+    last-disc-only: your code tests only the last disc. Does your loop overwrite the
+      results of the earlier discs?
+    nearest-centre: your code tests only the disc whose centre is nearest to the edge.
+      Test every disc, because a disc farther away can be larger
     all-must-hit: your code reports the edge as free as soon as it misses one disc.
       Report it as free only if it misses every disc
-    all-must-hit 2: your code reports the edge as free only if it misses at least one
-      disc. Report it as free if it misses every disc, and also if there is no disc
+    all-must-hit 2: your code reports the edge as free if it misses at least one disc,
+      and as blocked if there are no discs. Report the edge as free if it misses every
+      disc or if there are no discs
     squared-for-plain: your code compares the squared distance with the radius. Compare
       it with the squared radius instead
     plain-for-squared: your code compares the distance with the squared radius. Compare
       it with the radius instead
     diameter: your code compares the distance with twice the radius. Compare it with the
-      radius itself, which is the third number of a disc
+      radius itself, which is the third entry of the disc's row
     half-the-radius: your code compares the distance with half of the radius. Compare it
-      with the radius itself, which is the third number of a disc
+      with the radius itself, which is the third entry of the disc's row
     radius-forgotten: your code omits the radius, so it treats the discs as points.
       Compare the distance with the radius
     not-divided: your code does not divide the parameter of the nearest point by the
-      squared length of the edge. Divide it, because the parameter must be 1 at `b`
+      squared length of the edge. Divide it, so that the parameter is 1 at `b`
     divided-by-the-length: your code divides the parameter of the nearest point by the
       length of the edge. Divide it by the squared length instead
     touching-is-free: your code reports an edge that touches a disc as free. Report such
       an edge as blocked
-    from-the-origin: your code projects the centre itself onto the edge. Subtract `a`
-      from the centre before the projection
-    other-way: your code measures the parameter from one end of the edge, but it applies
-      the parameter from the other end. Use the same end for both steps
+    from-the-origin: your code projects the centre onto the edge without first
+      subtracting `a`. Subtract `a` from the centre, because the edge begins at `a`
+    other-way: your code measures the parameter from one endpoint of the edge, but it
+      applies the parameter from the other endpoint. Use the same endpoint in both steps
     box: your code treats the discs as squares, because it compares each coordinate
-      separately. Use the Euclidean distance instead
-    foot-without-a: your code omits the start `a` in the nearest point. Add `a`
-    cut-to-one: your code clamps a length along the edge to [0, 1]. Clamp it to the
-      length of the edge instead
-    length-for-share: your code multiplies a length along the edge by b - a. Multiply
-      the length by the unit vector instead
-    distance-to-the-start: your code uses the distance to `a` for a disc beyond the end
-      `b`. Use the distance to `b` instead, because `b` is the nearest point
-    first-crossing-only: your code tests only the first crossing of the circle. Test the
-      second crossing too, because an edge that starts in a disc has only this one
+      difference with the radius separately. Use the Euclidean distance instead
+    foot-without-a: your code computes the nearest point relative to `a`, but it does
+      not add `a`. Add `a` before you subtract this point from the centre
+    cut-to-one: your code clamps the distance along the edge to [0, 1]. Clamp it to the
+      range from 0 to the length of the edge instead
+    length-for-share: your code multiplies the distance along the edge by `b - a`.
+      Multiply this distance by the unit vector of the edge instead
+    distance-to-the-start: for a disc beyond `b`, your code uses the distance to `a`.
+      Use the distance to `b` instead, because `b` is the nearest point of the edge
+    first-crossing-only: your code tests only the first intersection of the line with
+      the circle. Test the second intersection too, because an edge that starts in the
+      disc can contain only the second
     some-crossing: your code tests whether the infinite line meets the circle. Use the
-      nearest point of the edge instead, because both crossings can lie beyond an end
+      nearest point of the edge instead, because both intersections can lie beyond an
+      endpoint
     boxes-overlap: your code tests whether the bounding boxes of the edge and the disc
-      overlap. Use the distance instead, because the edge can cross the box and still
-      miss the disc
+      overlap. Use the distance instead, because the boxes can overlap even if the edge
+      misses the disc
     x-and-y-exchanged: your code swaps the x and y coordinates of the centres. Each disc
       is (x, y, radius)
-    no-disc-is-hit: your code reports a blocked edge if there is no disc. Report the
-      edge as free
-    touching-between: your code reports an edge that touches a disc between its ends as
-      free. Report such an edge as blocked
+    no-disc-is-hit: your code reports the edge as blocked if there are no discs. Report
+      the edge as free in this case
+    touching-between: if an edge touches a disc between its endpoints, your code reports
+      the edge as free. Report such an edge as blocked
     points-only 7: your code misses discs that cover only a small part of the edge.
-      Compute the nearest point of the edge exactly
+      Compute the point of the edge nearest to each centre exactly
     points-only 8: your code tests only some points of the edge. Use the point of the
-      edge nearest to the centre, because a small disc can lie between two tested points
+      edge nearest to each centre instead, because a small disc can lie between two
+      tested points
     points-only 9: your code misses discs that cover only a small part of the edge.
-      Compute the nearest point of the edge exactly
+      Compute the point of the edge nearest to each centre exactly
     points-only 10: your code misses discs that cover only a small part of the edge.
-      Compute the nearest point of the edge exactly
+      Compute the point of the edge nearest to each centre exactly
     """
     along = b - a
     square = along @ along
@@ -390,7 +400,8 @@ def _(a, b, discs):
 @row.wrong
 def touching_and_no_length(a, b, discs):
     """your code reports an edge that touches a disc as free, and it divides by 0 for an
-    edge of length 0. A touching edge is blocked, and an edge of length 0 is a point"""
+    edge of length 0. Report a touching edge as blocked, and treat an edge of length 0
+    as a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)

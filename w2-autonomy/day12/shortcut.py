@@ -109,7 +109,8 @@ def _blocked(path, world, pairs):
 
 
 @row.valid(
-    "Your paths are valid and shorter, but the specified method makes other shortcuts."
+    "Your paths are valid and shorter, but the specified method makes different "
+    "shortcuts."
 )
 def _(path, world, pairs, answer):
     at = [int(np.argmin(np.abs(path - x).max(axis=1))) for x in answer]
@@ -135,28 +136,28 @@ def _(path, world, pairs):
     first-cut-only: your code stops after the first shortcut. Try all pairs
     indices-of-the-first-path: your code takes the two rows of each pair from the
       original path. Use the rows of the current path instead
-    indices-of-the-first-path 2: your code computes the indices with the length of the
-      original path, but it uses them in the current path. Use the length of the current
-      path instead
+    indices-of-the-first-path 2: your code computes the indices from the number of rows
+      of the original path, but it applies them to the current path. Use the number of
+      rows of the current path instead
     not-sorted: your code skips a pair if its first row is the later one. Sort the two
       rows instead
-    rounded: your code rounds u m to the nearest integer. Use `int(u * m)` instead,
+    rounded: your code rounds `u * m` to the nearest integer. Use `int(u * m)` instead,
       which rounds down
-    rounded 2: your code rounds u (m - 1) to the nearest integer. Use `int(u * m)`
+    rounded 2: your code rounds `u * (m - 1)` to the nearest integer. Use `int(u * m)`
       instead, which gives every row the same probability
-    of-m-minus-one: your code multiplies u by m - 1. Use `int(u * m)` instead, which
+    of-m-minus-one: your code multiplies u by `m - 1`. Use `int(u * m)` instead, which
       gives every row the same probability
     neighbours-too: your code also removes row i, even if the two rows are neighbours.
       Keep row i, and leave neighbouring rows unchanged
-    two-apart-left: your code skips rows that are two apart. Test these rows too,
-      because the row between them can be removed
+    two-apart-left: your code skips pairs of waypoints whose indices differ by 2. Test
+      these pairs too, because the waypoint between them may be removable
     hit-for-free: your code inverts the test, so it applies shortcuts whose edge is
       blocked. Apply a shortcut only if its edge is free
     unchanged: your code returns the original path. Apply each shortcut whose edge is
       free
-    all-but-the-ends: your code returns only the start and the end of the path. Keep the
-      rows that no free shortcut removes
-    only-the-ends-checked: your code tests only the two ends of the new edge. Test the
+    all-but-the-ends: your code returns only the start and the end of the path. Remove a
+      row only if a shortcut with a free edge skips it
+    only-the-ends-checked: your code tests only the endpoints of the new edge. Test the
       whole edge between rows i and j
     middle-checked: your code tests only the midpoint of the new edge. Test the whole
       edge

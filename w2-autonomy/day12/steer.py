@@ -78,33 +78,35 @@ def _(rng):
 
 @row.wrongs
 def _(q, target, step):
-    """overshoots: your code takes a full step even if the target is nearer than one
-      step. Stop at the target
-    no-limit: your code returns the target at any distance. Limit the displacement to
-      one step
+    """overshoots: your code takes a full step even if the target is less than one step
+      away. Stop at the target
+    no-limit: your code returns the target even if it is more than one step away. Limit
+      the displacement to one step
     fraction: your code multiplies the displacement by `step`. Divide the displacement
       by its norm first, because `step` is a length and not a fraction
     fraction-at-most-all: your code multiplies the displacement by the smaller of `step`
       and 1. Divide the displacement by its norm first, because `step` is a length and
       not a fraction
-    not-unit: your code does not divide the displacement to a far target by its norm.
-      Divide it before you multiply it by `step`, because `step` is a length
+    not-unit: if the target is more than one step away, your code multiplies the
+      displacement by `step`. Divide the displacement by its norm first, because `step`
+      is a length and not a fraction
     squared: your code divides the displacement by its squared norm. Divide the
       displacement by its norm instead
     from-the-target: your code subtracts the step from the target. Add the step to q
       instead
     from-the-target 2: your code adds the step to the target. Add the step to q instead
-    direction-only: your code returns the displacement from q to the target. Add the
-      displacement to q
-    direction-only 2: your code returns the displacement of one step. Add the
-      displacement to q
-    away: your code moves away from the target. Use target - q as the direction
-    away 2: your code moves away from a target that is farther than one step. Use target
-      - q as the direction
+    direction-only: your code returns the product of `step` and the unit vector towards
+      the target. Return the target if it is within one step, and q plus this product
+      otherwise
+    direction-only 2: your code returns the displacement from q to the new point. Add
+      this displacement to q
+    away: your code moves away from the target. Use `target - q` as the direction
+    away 2: if the target is more than one step away, your code moves away from it. Use
+      `target - q` as the direction
     stays-when-near: your code returns q if the target is within one step. Return the
       target instead
-    always-q: your code always returns q. Move from q towards the target, but at most
-      one step
+    always-q: your code always returns q. Move from q towards the target by at most one
+      step
     largest-coordinate: your code uses the largest absolute coordinate difference as the
       distance. Use the Euclidean norm instead
     largest-coordinate 2: your code clamps each coordinate of the displacement to one
@@ -123,15 +125,15 @@ def _(q, target, step):
     two-coordinates: your code uses only the first two coordinates for the distance. Use
       all coordinates
     root-of-the-mean: your code divides the sum of the squares by the number of
-      coordinates before it takes the root. Omit this division
+      coordinates before it takes the square root. Omit this division
     length-of-the-target: your code divides the displacement by the norm of the target.
-      Divide it by the norm of target - q instead
+      Divide it by the norm of `target - q` instead
     direction-from-the-origin: your code uses the direction from the origin to the
       target. Use the direction from q to the target instead
-    stops-half-way: your code covers only half of the distance to a target within one
-      step. Return the target
-    step-on-each-coordinate: your code changes each coordinate by a full step if the
-      target is far. Use a displacement whose norm is one step instead
+    stops-half-way: if the target is within one step, your code moves only halfway to
+      it. Return the target instead
+    step-on-each-coordinate: if the target is more than one step away, your code changes
+      each coordinate by a full step. Use a displacement whose norm is one step instead
     """
     way = target - q
     far = np.linalg.norm(way)

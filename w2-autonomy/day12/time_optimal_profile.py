@@ -124,8 +124,10 @@ def _(a, b, c, limits, sd2_max):
       maximum. Add a forward pass that begins with sd^2 = 0 at the first point
     smaller-of-two-passes: your code computes the two passes independently and takes the
       minimum. Limit sd^2 in the forward pass by the result of the backward pass instead
-    ds-for-2-ds: your code adds ds sdd to sd^2 in each step. Add 2 ds sdd instead
-    four-ds: your code adds 4 ds sdd to sd^2 in each step. Add 2 ds sdd instead
+    ds-for-2-ds: your code adds `ds * sdd` to sd^2 in each step. Add `2 * ds * sdd`
+      instead
+    four-ds: your code adds `4 * ds * sdd` to sd^2 in each step. Add `2 * ds * sdd`
+      instead
     points-for-steps: your code uses ds = 1 / (N + 1). Use ds = 1 / N, because N + 1
       points have N steps between them
     sd-for-sd2: your code calls `path_accel_bounds` with sd^2. Pass sd instead
@@ -133,25 +135,26 @@ def _(a, b, c, limits, sd2_max):
       Pass sd instead
     sd-for-sd2 3: your code calls `path_accel_bounds` with sd^2 in the forward pass.
       Pass sd instead
-    most-of-the-point-before: your code limits sd^2 at i + 1 by the maximum at i in the
-      forward pass. Use the maximum at i + 1 instead
+    most-of-the-point-before: in the forward pass, your code limits sd^2 at point i + 1
+      by the maximum at point i. Use the maximum at point i + 1 instead
     no-speed-limit: your code omits `sd2_max`. Limit sd^2 to `sd2_max` in both passes,
       because the joint velocities are limited
     speed-limit-forwards-only: your code clamps sd^2 to `sd2_max` only after the two
       passes. Use `sd2_max` inside both passes, because the motion must slow down before
-      such a point
-    gravity-forgotten: your code omits gravity in the torques. Include the term `c`
-    coriolis-forgotten: your code omits `b * sd**2` in the torques. Include this term
+      it reaches a point with a low limit
+    gravity-forgotten: your code omits gravity from the torques. Include the term `c`
+    coriolis-forgotten: your code omits `b * sd**2` from the torques. Include this term
     cannot-stand-goes: your code returns a nonzero motion although gravity alone exceeds
-      a torque limit. Return zeros, because the arm cannot stay at rest at such a point
+      a torque limit at some point. Return zeros in this case, because the arm cannot
+      hold still at that point
     few-bisections: your bisection stops too early, so its result is not accurate
-      enough. Halve the interval more often
+      enough. Use more iterations
     few-bisections 2: your bisection stops too early, so its result is not accurate
-      enough. Halve the interval more often
+      enough. Use more iterations
     limits-of-the-next-point: your code computes the bounds on sdd at the end of each
       step. Compute them at the first point of the step instead
-    bobrow: your code computes the bounds on sdd at the end of each step in the backward
-      pass. Compute them at the first point of the step instead
+    bobrow: in the backward pass, your code computes the bounds on sdd at the end of
+      each step. Compute them at the first point of the step instead
     root: your code returns sd. Return sd^2 instead
     times: your code returns the time at each point. Return sd^2 instead
     half-the-torque: your code uses only half of each torque limit. Use the whole limit

@@ -63,27 +63,27 @@ def _(rng):
 
 @row.wrongs
 def _(successes, n):
-    """wald: your code returns the Wald interval, p +- z sqrt(p (1 - p) / n). Use the
+    """wald: your code returns the Wald interval (`p +- z sqrt(p (1 - p) / n)`). Use the
       Wilson interval instead, because the width of a Wald interval is 0 for k = 0 and k
       = n
     wald-cut: your code returns the Wald interval, clamped to [0, 1]. Use the Wilson
       interval instead, because the width of a Wald interval is 0 for k = 0 and k = n
-    centre-not-moved: your code omits the term z^2 / (2 n) in the centre. Add it to k /
-      n before the division by 1 + z^2 / n
-    width-without-z2: your code omits the term z^2 / (4 n^2) under the root. Add it,
-      because the width should be above 0 even for k = 0
+    centre-not-moved: your code omits the term z^2 / (2 n) from the centre. Add this
+      term to k / n before the division by 1 + z^2 / n
+    width-without-z2: your code omits the term z^2 / (4 n^2) under the square root. Add
+      this term, because the width should be positive even for k = 0
     not-divided: your code does not divide the centre and the half-width by 1 + z^2 / n.
       Divide both by this factor
     middle-not-divided: your code divides only the half-width by 1 + z^2 / n. Divide the
-      centre by it too
+      centre by this factor too
     width-not-divided: your code divides only the centre by 1 + z^2 / n. Divide the
-      half-width by it too
-    root-n-forgotten: your code does not divide p (1 - p) by n. Divide it, because more
-      trials should make the interval narrower
+      half-width by this factor too
+    root-n-forgotten: your code does not divide `p (1 - p)` by n. Divide this product by
+      n, because more trials should make the interval narrower
     ninety: your code uses z = 1.645, which gives a 90 % interval. Use z = 1.96 for a 95
       % interval
     ninety-without-z2: your code uses z = 1.645 instead of 1.96, and it omits the term
-      z^2 / (4 n^2) under the root. Use z = 1.96, and add this term => both
+      z^2 / (4 n^2) under the square root. Use z = 1.96, and add this term => both
     two-sigma: your code uses z = 2. Use z = 1.96 for a 95 % interval
     one-sigma: your code uses z = 1, which gives a 68 % interval. Use z = 1.96 for a 95
       % interval
@@ -94,35 +94,37 @@ def _(successes, n):
     z-for-z2: your code uses z instead of z^2 in the centre and in the denominator. Use
       z^2 in both
     two-n: your code adds z^2 / n to k / n in the centre. Add z^2 / (2 n) instead
-    four-forgotten: your code adds z^2 / n^2 under the root. Add z^2 / (4 n^2) instead
-    n-for-n2: your code adds z^2 / (4 n) under the root. Add z^2 / (4 n^2) instead
+    four-forgotten: your code adds z^2 / n^2 under the square root. Add z^2 / (4 n^2)
+      instead
+    n-for-n2: your code adds z^2 / (4 n) under the square root. Add z^2 / (4 n^2)
+      instead
     successes-for-p: your code uses k instead of the proportion k / n in the centre.
       Divide k by n
     failures: your code returns the interval for the n - k failures. Return the interval
       for the successes instead
-    high-first: your code returns the upper end first. Return the lower end first
-    high-first 2: for n > 0, your code returns the upper end first. Return the lower end
-      first
+    high-first: your code returns the upper bound first. Return the lower bound first
+    high-first 2: for n > 0, your code returns the upper bound first. Return the lower
+      bound first
     middle-and-width: your code returns the centre and the half-width. Return the two
-      ends instead
-    rule-of-three: for k = 0, your code returns 3 / n as the upper end (the rule of
+      bounds instead
+    rule-of-three: for k = 0, your code returns 3 / n as the upper bound (the rule of
       three). Use the Wilson interval for k = 0 too
     rule-of-three 2: for k = 0 and k = n, your code uses the rule of three, with the
-      ends 3 / n and 1 - 3 / n. Use the Wilson interval for these cases too
+      bounds `3 / n` and `1 - 3 / n`. Use the Wilson interval for these cases too
     rule-of-three 3: for k = 0 and k = n, your code uses the rule of three, with the
-      ends 3 / n and 1 - 3 / n. Use the Wilson interval for these cases too
-    plus-four: your code uses the Wald interval with p = (k + 2) / (n + 4) (Agresti and
-      Coull). Use the Wilson interval instead
-    plus-four 2: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
-      n + z^2 trials (Agresti and Coull). Use the Wilson interval instead
-    plus-four 3: your code uses the Wald interval with p = (k + z^2 / 2) / (n + z^2) and
-      n + z^2 trials (Agresti and Coull). Use the Wilson interval instead
+      bounds `3 / n` and `1 - 3 / n`. Use the Wilson interval for these cases too
+    plus-four: your code returns the Agresti-Coull interval: the Wald interval with p =
+      (k + 2) / (n + 4) and n + 4 trials. Use the Wilson interval instead
+    plus-four 2: your code returns the Agresti-Coull interval: the Wald interval with p
+      = (k + z^2 / 2) / (n + z^2) and n + z^2 trials. Use the Wilson interval instead
+    plus-four 3: your code returns the Agresti-Coull interval: the Wald interval with p
+      = (k + z^2 / 2) / (n + z^2) and n + z^2 trials. Use the Wilson interval instead
     one-more: your code uses p = (k + 1) / (n + 2), which adds one success and one
       failure. Use p = k / n instead
-    quadratic-sign: your code uses the coefficient -2 k / n + z^2 / n in the quadratic
-      equation for p. Use -(2 k / n + z^2 / n) instead
-    quadratic-z2: your code uses the coefficient -(2 k / n + z^2) in the quadratic
-      equation for p. Use -(2 k / n + z^2 / n) instead
+    quadratic-sign: your code uses `-2 k / n + z^2 / n` as the coefficient of p in the
+      quadratic equation. Use `-(2 k / n + z^2 / n)` instead
+    quadratic-z2: your code uses `-(2 k / n + z^2)` as the coefficient of p in the
+      quadratic equation. Use `-(2 k / n + z^2 / n)` instead
     half-width: your code returns an interval that is half as wide as the Wilson
       interval. Add and subtract the whole half-width
     one-is-none: for n = 1, your code returns (0, 1). Use the formula, because only n =

@@ -65,45 +65,42 @@ def chunks(action, inside, ahead=0):
 )
 def _(action, episode, K):
     """crosses-episodes: your code fills the end of a chunk with actions of the next
-      episode. Set the entries after the end of the row's own episode, and their mask,
-      to 0
+      episode. Set these entries and their mask to 0 instead
     starts-next: your code begins chunk i with the action of row i + 1. Entry 0 of chunk
       i should be the action of row i
     wraps: your code fills the entries after the last row of the data with actions of
-      the first rows. Set the entries after the end of the row's own episode, and their
-      mask, to 0
+      the first rows. Set these entries and their mask to 0 instead
     by-number-only: your code treats all rows with the same episode number as one
       episode. A later episode can have the same number, so begin a new episode wherever
       the number changes
     mask-all-ones: your mask is 1 everywhere. The mask should be 0 for the entries after
-      the end of the row's own episode
+      the end of the episode
     held: your code repeats the last action of an episode in the entries after its end.
       Set these entries to 0 instead
-    wraps-within: your code fills the entries after the end of an episode with its first
-      actions. Set these entries, and their mask, to 0
-    past: your code uses the action of row i - j as entry j of chunk i. Use the action
+    wraps-within: your code fills the entries after the end of an episode with the first
+      actions of this episode. Set these entries and their mask to 0 instead
+    past: your code uses the action of row `i - j` as entry j of chunk i. Use the action
       of row i + j instead
     mask-swapped: your mask is inverted. The mask should be 1 for the entries that exist
       and 0 for all others
-    mask-of-rows: your code sets the whole mask of an incomplete chunk to 0. Set only
-      the mask of the entries after the end of the episode to 0
+    mask-of-rows: your code sets the whole mask of an incomplete chunk to 0. Set the
+      mask to 0 only for the entries after the end of the episode
     ends-the-data 2: your code fills the end of a chunk with actions of the next
       episode. Set these entries to 0. Your mask is correct
     wraps 2: your code fills the entries after the last row of the data with actions of
-      the first rows. Set the entries after the end of the row's own episode, and their
-      mask, to 0
+      the first rows. Set these entries and their mask to 0 instead
     last-row-dropped: your code omits the action of an episode's last row from the
       chunks. Include this action, because the row belongs to the episode
     last-row-dropped 2: your mask is 0 for the action of an episode's last row. The mask
       should be 1 for this entry, because the action exists
-    only-entry-0: your code fills only entry 0 of each chunk. Use the action of row i +
-      j as entry j if row i + j belongs to the same episode
+    only-entry-0: your code fills only entry 0 of each chunk. Fill entry j of chunk i
+      with the action of row i + j if this row belongs to the same episode
     blocks: your code uses the same chunk for K successive rows. The chunk of each row
       should begin with the action of that row
-    neighbours-only: your code sets a later entry to 0 only if its row begins an
-      episode. Set all entries after the end of the episode to 0
-    only-larger: your code begins a new episode only where the number increases. Begin a
-      new episode wherever the number changes
+    neighbours-only: your code sets an entry to 0 only if its row begins an episode. Set
+      all entries after the end of the episode to 0
+    only-larger: your code begins a new episode only where the episode number increases.
+      Begin a new episode wherever the number changes
     """
     n = len(action)
     rows = np.arange(n)[:, None] + np.arange(K)

@@ -64,13 +64,13 @@ def _(q, k, v):
     sigmoid: your code applies the sigmoid to the scaled products and divides each
       result by the sum of its row. Apply exp instead of the sigmoid
     cosines: your code divides queries and keys by their norms. Omit this division, and
-      divide their scalar products by sqrt(d) only
+      divide their dot products by sqrt(d) only
     cosines 2: your code divides queries and keys by their norms. Omit this division,
-      and divide their scalar products by sqrt(d) only
+      and divide their dot products by sqrt(d) only
     scaled-after: your code divides the mean of the values by sqrt(d). Divide the
       products of queries and keys by sqrt(d) instead, before the softmax
-    causal: your code restricts query i to the keys 0 to i, as in causal attention. Use
-      all keys for each query instead
+    causal: your code restricts query i to keys 0 to i, as in causal attention. Use all
+      keys for each query instead
     """
     d = q.shape[1]
     raw = q @ k.T

@@ -41,33 +41,34 @@ row.cases(
 @row.wrongs
 def _(x, d, W1, b1, W2, b2, W3, b3):
     """dx-before-the-slope: your code omits the derivative of the first tanh from the
-      gradient with respect to x. Multiply by 1 - h^2 before you multiply by W1^T, where
-      h is the output of the first layer
-    dx-with-input-slope: your code multiplies the gradient with respect to x by 1 - x^2.
-      Omit this factor, because x is the input and not the output of a tanh
-    slope-of-h: your derivative of tanh is 1 - tanh(h)^2, where h is the output of the
-      hidden layer. Use 1 - h^2 instead, because h is already the output of tanh
+      gradient with respect to x. Multiply by `1 - h^2` before you multiply by W1^T,
+      where h is the output of the first layer
+    dx-with-input-slope: your code multiplies the gradient with respect to x by `1 -
+      x^2`. Omit this factor, because x is the input and not the output of a tanh
+    slope-of-h: your derivative of tanh is `1 - tanh(h)^2`, where h is the output of the
+      hidden layer. Use `1 - h^2` instead, because h is already the output of tanh
     mse-again: your code multiplies d by 2 and divides it by the number of entries. Use
       d itself, because d is already the gradient of the loss with respect to the
       outputs
     dx-mean: your code divides the gradient with respect to x by the number of rows.
       Omit this division, because d is already the gradient of the whole loss
-    slope-at-the-end: your code multiplies d by a derivative of tanh. Omit this factor,
-      because the last layer is linear
-    dx-of-the-hidden: your last result is the gradient with respect to the output of the
-      first layer. Multiply this gradient by the derivative of the first tanh, and then
-      by W1^T
-    slope-at-the-end 2: your code multiplies d by a derivative of tanh. Omit this
+    slope-at-the-end: your code multiplies d by the derivative of tanh. Omit this
       factor, because the last layer is linear
-    slope-of-the-sum: your derivative of tanh is 1 - z^2, where z is the argument of
-      tanh. Use 1 - h^2 instead, where h = tanh(z) is the output of the hidden layer
+    dx-of-the-hidden: your seventh result is the gradient with respect to the output of
+      the first layer, not with respect to x. Multiply this gradient by the derivative
+      of the first tanh, and then by W1^T
+    slope-at-the-end 2: your code multiplies d by the derivative of tanh. Omit this
+      factor, because the last layer is linear
+    slope-of-the-sum: your derivative of tanh is `1 - z^2`, where z is the argument of
+      tanh. Use `1 - h^2` instead, where h = tanh(z) is the output of the hidden layer
     no-biases: your code omits the biases in the forward pass. Add the bias of each
       hidden layer before tanh, because the bias changes the output of the layer
     slope-of-relu: your code uses the derivative of a ReLU, which is 1 for positive
-      outputs and 0 for all others. The derivative of tanh is 1 - h^2, where h is the
-      output of the layer
-    slope-of-relu 2: your code uses the derivative of a ReLU for the second layer. The
-      derivative of tanh is 1 - h^2, where h is the output of the layer
+      outputs and 0 for all others. Use the derivative of tanh instead, which is `1 -
+      h^2`, where h is the output of the layer
+    slope-of-relu 2: your code uses the derivative of a ReLU for the second layer. Use
+      the derivative of tanh instead, which is `1 - h^2`, where h is the output of the
+      layer
     mean-again: your code divides the gradients with respect to the weights and biases
       by the number of rows. Omit this division, because d is already the gradient of
       the whole loss

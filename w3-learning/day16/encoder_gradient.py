@@ -5,8 +5,8 @@ import numpy as np
 from labkit.judge import Matrix, Row
 
 row = Row((
-    Matrix((None, None), called="the gradient of mu"),
-    Matrix((None, None), called="the gradient of logvar"),
+    Matrix((None, None), called="the gradient with respect to mu"),
+    Matrix((None, None), called="the gradient with respect to logvar"),
 ))  # fmt: skip
 
 
@@ -39,14 +39,14 @@ row.cases(
 
 @row.wrongs
 def _(dz, mu, logvar, noise, beta):
-    """noise-forgotten: your code omits the noise in the gradient with respect to
+    """noise-forgotten: your code omits the noise from the gradient with respect to
       logvar. Multiply dz by noise * exp(logvar / 2) / 2, which is the derivative of the
       sample with respect to logvar
     kl-not-divided: your code uses the sum of the divergences over the rows. Divide the
       derivatives of this sum by n, because the loss contains the mean over the rows
-    kl-not-divided 2: your code divides the derivatives of the divergence by the number
-      of all entries, n * z. Divide these derivatives by n only, because the loss sums
-      the divergence over the z columns
+    kl-not-divided 2: your code divides the derivatives of the divergence by the total
+      number of entries, n * z. Divide them by n only, because the loss sums the
+      divergence over the z columns
     dz-divided: your code divides dz by n. Omit this division, because dz is already the
       gradient of the decoder's loss
     dz-not-passed-on: your gradient with respect to logvar contains only the derivative
@@ -64,10 +64,10 @@ def _(dz, mu, logvar, noise, beta):
     sample-for-noise 2: your gradient with respect to logvar contains dz times the
       sample. Use the noise instead of the sample, because the derivative of the sample
       with respect to logvar does not contain mu
-    beta-forgotten: your code omits the factor beta in the gradient with respect to
+    beta-forgotten: your code omits the factor beta from the gradient with respect to
       logvar. Multiply the derivative of the divergence by beta, because the loss
       contains beta times the divergence
-    beta-forgotten 2: your code omits the factor beta in both gradients. Multiply the
+    beta-forgotten 2: your code omits the factor beta from both gradients. Multiply the
       derivatives of the divergence by beta, because the loss contains beta times the
       divergence
     not-differentiated: your gradients contain the divergence itself. Use the

@@ -32,11 +32,11 @@ def _(mu, logvar):
     """bits: your function returns the divergence in bits. Use the natural logarithm
       instead of the logarithm to the base 2, so that the unit is nats
     swapped: your function returns the divergence of the prior p from the Gaussian q.
-      Return the mean of ln q - ln p under q instead
+      Return the mean of `ln q - ln p` under q instead
     log-of-std: your code uses logvar as the logarithm of the standard deviation. The
       variance is exp(logvar), so the standard deviation is exp(logvar / 2)
-    entropy: your function returns the entropy of the Gaussian q. Return the mean of ln
-      q - ln p under q instead, where p is the prior
+    entropy: your function returns the entropy of the Gaussian q. Return the mean of `ln
+      q - ln p` under q instead, where p is the prior
     """
     var = np.exp(logvar)
     right = (var + mu**2 - 1 - logvar) / 2

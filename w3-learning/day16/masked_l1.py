@@ -71,10 +71,10 @@ def _(pred, target, mask):
     gradient-not-divided: your gradient is the sign of each existing error. Divide these
       signs by m times the sum of the mask, as in the loss
     divided-by-rows: your code divides the sum of the absolute errors by the number of
-      rows. Divide this sum by m times the sum of the mask instead, which is the number
-      of existing errors
+      rows. Divide this sum by the number of existing errors instead, which is m times
+      the sum of the mask
     gradient-by-all: your loss is correct, but your code divides the gradient by the
-      number of all entries, including the padding. Divide the gradient by m times the
+      total number of entries, including the padding. Divide the gradient by m times the
       sum of the mask, as in the loss
     not-0-at-0: your gradient is not 0 where the error is 0. Use 0 as the derivative of
       |e| at 0, as `np.sign` does

@@ -7,7 +7,8 @@ from labkit.judge import Matrix, Vector
 NAMES = ("W1", "b1", "W2", "b2", "W3", "b3", "x")
 GRADIENTS = tuple(
     (Vector if name[0] == "b" else Matrix)(
-        (None,) if name[0] == "b" else (None, None), called=f"the gradient of {name}"
+        (None,) if name[0] == "b" else (None, None),
+        called=f"the gradient with respect to {name}",
     )
     for name in NAMES
 )

@@ -30,8 +30,9 @@ def _(mu, logvar, noise):
       2, because logvar is the natural logarithm of the variance
     logvar-as-std: your code multiplies the noise by logvar, which is the logarithm of
       the variance. Multiply the noise by the standard deviation instead
-    half-variance: your code multiplies the noise by half of the variance. Halve the
-      exponent instead, because the standard deviation is the square root of exp(logvar)
+    half-variance: your code multiplies the noise by half of the variance. Halve logvar
+      before you apply exp instead, because the standard deviation is the square root of
+      exp(logvar)
     root-of-the-log: your code multiplies the noise by the square root of the absolute
       value of logvar. Compute the variance exp(logvar) first, and then take its square
       root

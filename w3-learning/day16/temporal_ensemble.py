@@ -40,18 +40,18 @@ row.cases(
 @row.wrongs
 def _(plans, decay):
     """newest-first: your code assigns the weight exp(0) to the newest plan. Assign this
-      weight to the oldest plan instead, which is plan 0
+      weight to the oldest plan (plan 0) instead
     first-entries: your code averages the first entries of all plans. The first entry of
-      an older plan was for an earlier step, so use the entry for the current step
-      instead
+      an older plan was for an earlier step, so use the entry for the current step of
+      each plan instead
     same-entry: your code uses entry i of plan i, as if plan 0 were the newest. Use
-      entry k - 1 - i instead, because plan i was made k - 1 - i steps ago
-    last-entries: your code averages the last entries of all plans. Use entry k - 1 - i
-      of plan i instead, which is the entry for the current step
-    counted-from-the-end: your code uses entry K - 1 - i of plan i. Use entry k - 1 - i
-      instead, because plan i was made k - 1 - i steps ago
-    one-entry-late: your code uses entry k - i of plan i. Use entry k - 1 - i instead,
-      because plan i was made k - 1 - i steps ago
+      entry `k - 1 - i` instead, because plan i was made `k - 1 - i` steps ago
+    last-entries: your code averages the last entries of all plans. Use entry `k - 1 -
+      i` of plan i instead, which is the entry for the current step
+    counted-from-the-end: your code uses entry `K - 1 - i` of plan i. Use entry `k - 1 -
+      i` instead, because plan i was made `k - 1 - i` steps ago
+    one-entry-late: your code uses entry `k - i` of plan i. Use entry `k - 1 - i`
+      instead, because plan i was made `k - 1 - i` steps ago
     moving-average: your code computes an exponential moving average of the actions. The
       weight of plan i should be exp(-decay * i), divided by the sum of these
       exponentials over all plans
@@ -59,7 +59,7 @@ def _(plans, decay):
       The weight of plan i should be exp(-decay * i), divided by the sum of these
       exponentials over all plans
     all-entries: your code averages all entries of each plan. Use only the entry for the
-      current step, which is entry k - 1 - i of plan i
+      current step, which is entry `k - 1 - i` of plan i
     divided-by-k: your code divides the weighted sum by the number of plans. Divide this
       sum by the sum of the weights instead
     equal-weights: your code gives all plans the same weight. Make the weight of plan i
@@ -70,8 +70,8 @@ def _(plans, decay):
       weighted mean of the actions of all plans for the current step instead
     median: your function returns the median of the plans' actions for the current step.
       Return the weighted mean of these actions instead
-    powers-of-the-decay: your code uses decay to the power i as the weight of plan i.
-      Use exp(-decay * i) instead
+    powers-of-the-decay: your code uses `decay**i` as the weight of plan i. Use
+      `exp(-decay * i)` instead
     """
     k, K, _ = plans.shape
     i = np.arange(k)
