@@ -96,8 +96,8 @@ def _(T, T_goal):
     translation-sign: your code uses the vector from the goal to the hand as the
       translation. Use the vector from the hand to the goal instead
     screw-for-translation: your code uses `p_goal - R p` as the translation, where R is
-      the rotation matrix of T_goal T^-1. Use `p_goal - p` instead, the vector from the
-      hand to the goal
+      the rotation matrix of T_goal T^-1. Use `p_goal - p` instead, which is the vector
+      from the hand to the goal
     """
     goal = T_goal[:3, 3]
     turn = pose_error(T, T_goal)[:3]

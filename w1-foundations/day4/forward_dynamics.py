@@ -49,8 +49,8 @@ def _(M, bias, damping, qd, tau):
     armature-twice: your code adds the armature to M. Use M unchanged, because M already
       contains the armature (task 4.3)
     mass-of-the-step: your code uses M + h damping, which is the matrix of the
-      simulator's implicit step with h = 2 ms. Use only M, because qdd is the
-      acceleration at this instant
+      simulator's implicit step with h = 2 ms. Use M alone, because qdd is the
+      acceleration at the present instant
     velocity-returned: your code returns qd + h qdd, which is the velocity after a step
       of h = 2 ms. Return qdd instead
     divided-entry-by-entry: your code takes the reciprocal of each entry of M (`1 / M`).

@@ -45,7 +45,7 @@ def carried(
 @row.wrongs
 def _(T_links, masses, coms, inertias):
     """com-in-link-axes: your code uses the centre of mass in the link frame. Transform
-      the centre of mass to the world frame with T
+      the centre of mass into the world frame with T
     com-turned-back: your code rotates the centre of mass with R^T, which rotates from
       the world frame to the link frame. Use R instead
     com-seen-from-the-link: your code transforms the centre of mass with the inverse of
@@ -79,7 +79,7 @@ def _(T_links, masses, coms, inertias):
 @row.wrongs
 def _(T_links, masses, coms, inertias):
     """left-in-link-axes: your code does not use T_links, so each matrix is expressed in
-      its link frame. Transform each matrix to the world frame
+      its link frame. Transform each matrix into the world frame
     adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. The factor on the right of
       G should map a twist from the world frame to the link frame. The factor on the
       left should be the transpose of the factor on the right

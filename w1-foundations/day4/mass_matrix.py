@@ -46,12 +46,12 @@ def cut(J, G, armature):
       columns of the joints after the link to 0, because these joints do not move the
       link
     own-joint-left-out: in each link's Jacobian, your code omits the column of the
-      link's own joint. Include this column, because the own joint also moves the link
+      link's own joint. Include this column, because this joint also moves the link
     next-joint-too: in each link's Jacobian, your code also includes the column of the
       next joint. Omit this column, because the next joint does not move the link
     columns-cut-on-the-wrong-side: in each link's Jacobian, your code uses the columns
-      of the link's own joint and of all later joints. Use the columns of the own joint
-      and of all earlier joints instead
+      of the link's own joint and of all later joints. Use the columns of the link's own
+      joint and of all earlier joints instead
     own-joint-only: in each link's Jacobian, your code uses only the column of the
       link's own joint. Include the columns of all earlier joints, because these joints
       also move the link
