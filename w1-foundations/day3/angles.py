@@ -45,15 +45,15 @@ def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
         return Finding(
             "signs-near-pi",
             f"{says} The entries are correct except for their signs, because the "
-            "square roots of the diagonal are never negative. Which entries of R + R^T "
-            "determine the relative signs?",
+            "square roots of the diagonal entries are never negative. Which entries of "
+            "R + R^T determine the relative signs?",
         )
     if found := _set_to_pi(S, T, some):
         return found
     return Finding(
         "wrong-near-pi",
         f"{says} Near pi, R - R^T is nearly 0. Does your code divide R - R^T by the "
-        "sine? This division amplifies the rounding errors.",
+        "sine of the angle? This division amplifies the rounding errors.",
     )
 
 

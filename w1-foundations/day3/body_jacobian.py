@@ -32,9 +32,9 @@ def _(J_space, T):
     transposed-adjoint: your code uses the transpose of Ad(T). Use Ad(T^-1) instead,
       which is the inverse of Ad(T)
     bracket-without-R: the lower left block of your adjoint is [p]. This block should be
-      [p] R, where R and p are the two parts of T^-1
+      [p] R, where R and p are the rotation and the translation of T^-1
     bracket-on-the-right: the lower left block of your adjoint is R [p]. This block
-      should be [p] R, where R and p are the two parts of T^-1
+      should be [p] R, where R and p are the rotation and the translation of T^-1
     turned-by-R: your code multiplies J_site by R, which rotates from the hand frame to
       the world frame. Use R^T instead
     """

@@ -21,7 +21,7 @@ AT_NO_DAMPING = HeldOut(
     "zero-without-damping",
     "Your function is correct if `damping` is positive, but it returns zeros if "
     "`damping` is 0. Without damping, the damped least-squares step is the "
-    "pseudo-inverse step. Step 6 of the lab uses this case.",
+    "pseudo-inverse step. Step 6 of the lab uses a damping of 0.",
     _without_damping,
     mistaken=lambda J, e, damping: np.zeros(7),
 )
@@ -45,7 +45,7 @@ def _(J, e, damping):
       step, which is very large near a singularity. Add damping^2 to the diagonal of J
       J^T
     damping-everywhere: your code adds damping^2 to every entry of J J^T. Add damping^2
-      only to its diagonal
+      only to the diagonal of J J^T
     transpose-only: your code returns the gradient step J^T e. The damped least-squares
       step also contains the inverse of J J^T + damping^2 I
     pseudo-inverse-scaled: your code divides the pseudo-inverse step by 1 + damping^2,
@@ -53,16 +53,16 @@ def _(J, e, damping):
       the directions with small singular values
     damping-fixed: your code always uses a damping of 0.05. Use the argument `damping`
       instead
-    damping-added-to-the-values: your code replaces 1 / s with 1 / (s + damping) for
-      each singular value s. Use s / (s^2 + damping^2) instead
-    singular-value-missing 2: your code replaces 1 / s with 1 / (s^2 + damping^2) for
-      each singular value s above 0. Multiply this expression by s, because J^T
-      contributes a factor s
+    damping-added-to-the-values: for each singular value s, your code uses the factor 1
+      / (s + damping). Use the factor s / (s^2 + damping^2) instead
+    singular-value-missing 2: for each singular value s above 0, your code uses the
+      factor 1 / (s^2 + damping^2). Multiply this factor by s, because J^T contributes a
+      factor of s
     damping-as-a-cut: your code passes `damping` to the pseudo-inverse as `rcond`, which
       discards the directions with small singular values. Damping should only reduce the
       step along these directions
-    singular-value-missing: your code replaces 1 / s with 1 / (s^2 + damping^2) for each
-      singular value s. Multiply this expression by s, because J^T contributes a factor
+    singular-value-missing: for each singular value s, your code uses the factor 1 /
+      (s^2 + damping^2). Multiply this factor by s, because J^T contributes a factor of
       s
     """
     U, s, Vt = np.linalg.svd(J, full_matrices=False)

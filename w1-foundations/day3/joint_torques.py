@@ -24,21 +24,21 @@ def _(rng):
 @row.wrongs
 def _(J_space, p, F):
     """at-the-origin: your code uses J_space^T, which requires the moment about the
-      world origin. The given moment is about p, so use the Jacobian of p or convert the
-      moment
+      world origin. The given moment is about p, so use the site Jacobian of p, or
+      convert the moment to the world origin
     what-balances-it: your code returns the negative of the correct torques. F is the
       wrench that the hand exerts, so the motor power should equal the power of F
     pseudo-inverse: your code returns J^+ F, which does not conserve power. Which matrix
       makes the motor power equal to the power of F at the hand?
-    moment-forgotten: your code omits the moment in F. The power of F also contains the
-      term moment . omega
-    force-forgotten: your code omits the force in F. The power of F also contains the
-      term force . v
-    arm-the-wrong-way: your code uses f x p as the moment of the force about the world
+    moment-forgotten: your code omits the moment in F. The power of F also includes the
+      dot product of the moment and omega
+    force-forgotten: your code omits the force in F. The power of F also includes the
+      dot product of the force and v
+    arm-the-wrong-way: your code uses f x p as the moment of the force f about the world
       origin. Use p x f instead
-    arm-twice: your code adds p x f to the moment, as for J_space, and also uses the
-      Jacobian of the point p. Use J_space with this sum, or the Jacobian of p with the
-      given moment => both
+    arm-twice: your code adds p x f, with the force f, to the moment and also uses the
+      site Jacobian of p. Use this sum with J_space, or the given moment with the site
+      Jacobian of p => both
     """
     J = site_jacobian(J_space, p)
     moment = F[:3]

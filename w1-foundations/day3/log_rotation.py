@@ -134,7 +134,7 @@ def roll_pitch_yaw(R):
 def _(R):
     """sine-for-angle: the norm of your vector is the sine of the angle. The norm should
       be the angle itself
-    twice-the-sine: your vector has the entries of R - R^T, so its norm is twice the
+    twice-the-sine: your vector consists of entries of R - R^T, so its norm is twice the
       sine of the angle. The norm should be the angle itself
     quaternion-vector-part: your vector is the vector part of the quaternion, whose norm
       is sin(angle / 2). The norm of your vector should be the angle
@@ -142,9 +142,9 @@ def _(R):
       so its norm is 2 sin(angle / 2). The norm should be the angle
     axis-only: your vector is the unit vector along the axis. The norm of the vector
       should be the angle
-    arcsine: your code computes the angle only with an arcsine, which cannot distinguish
-      100 degrees from 80 degrees. Use atan2 with the sine and the cosine of the angle
-      instead
+    arcsine: your code computes the angle with an arcsine alone, which cannot
+      distinguish 100 degrees from 80 degrees. Use atan2 with the sine and the cosine of
+      the angle instead
     half-the-angle: the norm of your vector is half the rotation angle. The norm should
       be the full rotation angle
     in-degrees: the norm of your vector is the angle in degrees. Use radians instead
@@ -169,12 +169,12 @@ def _(R):
 
 @row.wrongs
 def _(R):
-    """half-the-trace-less-1: your cosine is trace / 2 - 1. The cosine should be (trace
-      - 1) / 2
-    half-the-trace-less-1 2: your cosine is trace / 2 - 1. The cosine should be (trace -
-      1) / 2
-    half-the-trace-less-1 3: your cosine is trace / 2 - 1. The cosine should be (trace -
-      1) / 2
+    """half-the-trace-less-1: your cosine is `trace / 2 - 1`. The cosine should be
+      `(trace - 1) / 2`
+    half-the-trace-less-1 2: your cosine is `trace / 2 - 1`. The cosine should be
+      `(trace - 1) / 2`
+    half-the-trace-less-1 3: your cosine is `trace / 2 - 1`. The cosine should be
+      `(trace - 1) / 2`
     """
     c = np.trace(R) / 2 - 1
     angle = np.arccos(c)
@@ -188,8 +188,8 @@ def _(R):
 @row.wrongs(hidden={"arccosine-beyond-1": "its identity is exact"})
 def _(R):
     """textbook-formula: your code multiplies R - R^T by theta / (2 sin(theta)). For the
-      identity matrix, this factor is 0 / 0, and near pi it amplifies the rounding
-      errors. Treat both cases separately
+      identity matrix, this factor is 0 / 0. For angles near pi, it amplifies the
+      rounding errors. Treat both cases separately
     nan-at-0: your result for the identity matrix is NaN, because your code divides by
       sin(0) = 0. Return the zero vector for a rotation by 0
     arccosine-beyond-1: your result is NaN where rounding makes (trace - 1) / 2 larger
@@ -214,8 +214,8 @@ for k, (which, missing) in enumerate((("first", "x"), ("second", "y"), ("last", 
     row.wrong(
         "fixed-column",
         f"for angles near pi, your code always takes the axis from the {which} column "
-        f"of axis axis^T. This column is 0 if the axis has no {missing} component. Use "
-        "the column with the largest norm instead",
+        f"of the matrix axis axis^T. This column is 0 if the axis has no {missing} "
+        "component. Use the column with the largest norm instead",
         hidden="its half turn is about y" if missing == "y" else "",
     )(lambda R, k=k: from_column(R, k))
 
@@ -293,8 +293,8 @@ def _(R):
 
 @row.wrong
 def two_arguments_exchanged(R):
-    """your angle is pi minus the correct angle, because the cosine has the wrong sign.
-    The cosine should be (trace - 1) / 2"""
+    """your angle is pi minus the correct angle, because your cosine has the wrong sign.
+    The cosine should be `(trace - 1) / 2`"""
     w = log_rotation(R)
     angle = np.linalg.norm(w)
     return (np.pi - angle) * w / angle if angle > 0 else w

@@ -51,9 +51,9 @@ def _(J):
       largest. The result should be the product of all six singular values
     square-part: your code returns the determinant of the first six columns. Use all
       seven columns
-    position-only: your code uses only the three v rows of J. Use all six rows
-    zeros-left-out: your code omits singular values that are 0 from the product. Include
-      them, because the product should be 0 if any singular value is 0
+    position-only: your code uses only the three rows of v in J. Use all six rows
+    zeros-left-out: your code leaves singular values of 0 out of the product. Include
+      these values, because the product should be 0 if any singular value is 0
     """
     JJ = J @ J.T
     s = values(J)
@@ -73,7 +73,8 @@ for determinant in (np.linalg.det, lambda A: np.prod(np.linalg.eigvalsh(A))):
     row.wrong(
         "nan-at-a-singularity",
         "your result is NaN for some singular J, because rounding makes det(J J^T) "
-        "slightly negative. Clamp the determinant at 0 before the square root",
+        "slightly negative. Clamp the determinant to at least 0 before you take the "
+        "square root",
         hidden="rounding at q = 0 differs",
     )(lambda J, determinant=determinant: np.sqrt(determinant(J @ J.T)))
 

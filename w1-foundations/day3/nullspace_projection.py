@@ -32,7 +32,7 @@ def what_the_hand_feels(case: Case) -> Finding | None:
     return Finding(
         "not-felt-but-off",
         f"J times your result is 0, so the hand does not move, but your result is not "
-        f"the projection of dq. Its norm is {np.linalg.norm(S[i]):.3g}; "
+        f"the projection of dq. The norm of your result is {np.linalg.norm(S[i]):.3g}; "
         f"expected {np.linalg.norm(T[i]):.3g}.",
     )
 
@@ -66,14 +66,14 @@ def _(J, dq):
     added: your code adds the part of dq that moves the hand. Subtract this part instead
     nothing-left: your result is always 0. An arm with seven joints always has motions
       that do not move the hand. Return the part of dq along these motions
-    normalised: your code normalises the result. Return the projection of dq itself,
-      whose norm depends on dq
-    one-direction-only: your code uses only the last right singular vector. If J is
-      singular, use all right singular vectors with the singular value 0
+    normalised: your code normalises the result. Return the projection itself, whose
+      norm depends on dq
+    one-direction-only: your code uses only the last right singular vector. Use all
+      right singular vectors that J maps to 0, because a singular J has more than one
     first-direction-kept: your code does not remove the part of dq along the first right
       singular vector. Remove this part too, because this direction moves the hand most
-    position-only: your code uses only the three v rows of J, so the hand rotates. Use
-      all six rows
+    position-only: your code uses only the three rows of v in J, so the hand rotates.
+      Use all six rows
     """
     felt = pinv(J) @ (J @ dq)
     left = dq - felt

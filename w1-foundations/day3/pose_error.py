@@ -68,11 +68,11 @@ def _(T, T_goal):
       frame instead
     rotation-sign: your code uses the rotation from the goal to the hand. Use the
       rotation from the hand to the goal instead
-    rotation-difference: your code returns log(R_goal) - log(R) as the rotation. Use the
-      logarithm of the rotation from R to R_goal instead
+    rotation-difference: your code returns `log(R_goal) - log(R)` as the rotation
+      vector. Use the logarithm of the rotation from R to R_goal instead
     euler-difference: your code subtracts the roll, pitch and yaw angles of the two
       poses. Use the logarithm of the rotation from R to R_goal instead, because the
-      difference of these angles is not a rotation vector
+      differences between these angles do not form a rotation vector
     """
     R = T[:3, :3]
     goal = T_goal[:3, :3]
@@ -95,8 +95,9 @@ def _(T, T_goal):
       translation. Use the vector from the hand to the goal instead
     translation-sign: your code uses the vector from the goal to the hand as the
       translation. Use the vector from the hand to the goal instead
-    screw-for-translation: your code uses p_goal - R p as the translation, where R is
-      the rotation of T_goal T^-1. Use p_goal - p instead
+    screw-for-translation: your code uses `p_goal - R p` as the translation, where R is
+      the rotation matrix of T_goal T^-1. Use `p_goal - p` instead, which is the vector
+      from the hand to the goal
     """
     goal = T_goal[:3, 3]
     turn = pose_error(T, T_goal)[:3]
@@ -111,7 +112,7 @@ def _(T, T_goal):
 
 row.reached_by(
     "log_rotation",
-    "in the rotation, ",
+    "for the rotation error R, ",
     but=("textbook-formula", "nan-at-0", "arccosine-beyond-1", "fixed-column"),
 )
 

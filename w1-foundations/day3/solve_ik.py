@@ -28,8 +28,8 @@ BOTH_MOVE = "there both halves move"
 
 @row.wrongs
 def _(screws, M, T_goal, q_start, limits):
-    """one-step: your code takes only one step. The Jacobian is a linear approximation,
-      so repeat the step until the error is small
+    """one-step: your code takes only one step. The Jacobian gives only a linear
+      approximation, so repeat the step until the error is small
     start-returned: your code returns `q_start`, because it takes no step or because
       every step increases the error. Does your error have the correct sign?
     step-returned: your code returns the last step. Return the configuration after this
@@ -56,17 +56,17 @@ def _(screws, M, T_goal, q_start, limits):
     """space-jacobian: your code computes the steps with J_space, whose v is the
       velocity of the body-fixed point at the world origin. Use J_site instead, whose v
       is the velocity of the hand
-    body-jacobian: your code uses J_body, which is expressed in the hand frame, with an
-      error that is expressed in the world frame. Express both in the same frame
-    error-in-the-hands-axes: your code uses J_site, which is expressed in the world
+    body-jacobian: your code combines J_body, which is expressed in the hand frame, with
+      an error that is expressed in the world frame. Express both in the same frame
+    error-in-the-hands-axes: your code combines J_site, which is expressed in the world
       frame, with an error that is expressed in the hand frame. Express both in the same
       frame
-    damping-not-squared: your code adds the damping instead of its square to the
-      diagonal of J J^T. Add damping^2 instead
+    damping-not-squared: your code adds the damping itself to the diagonal of J J^T. Add
+      damping^2 instead
     limits-forgotten: your code does not apply the joint limits. Apply the limits after
       each step
-    jacobian-never-updated: your code computes the Jacobian only at the start. Compute
-      the Jacobian again in every step, because it depends on q
+    jacobian-never-updated: your code computes the Jacobian only at the start. Compute a
+      new Jacobian in every step, because the Jacobian depends on q
     q-start-unused: your loop starts from READY_Q. Start from the argument `q_start`
       instead
     """
@@ -89,8 +89,8 @@ def _(screws, M, T_goal, q_start, limits):
 
 @row.wrong(hidden="it arrives all the same: success is no proof")
 def damping_not_squared(screws, M, T_goal, q_start, limits):
-    """your code uses damping^2 as the damping, and the step then squares this value
-    again. Take its square root first"""
+    """your code passes damping^2 to the damped least-squares step, which squares this
+    value again. Pass the damping itself instead"""
     return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: ee / 2 + 1e-6)
 
 
@@ -184,8 +184,8 @@ def _(screws, M, T_goal, q_start, limits):  # 0 is taken to be within all limits
 
 
 WRAPPED = "your code wraps the angles to [-pi, pi] at the end. Return the angles "
-WRAPPED += "unchanged, because joint6 can move to 3.75 rad, and its wrapped angle "
-WRAPPED += "violates the joint limits"
+WRAPPED += "unchanged, because joint6 can move to 3.75 rad, and the wrapped angle "
+WRAPPED += "would violate its limits"
 for kept in (True, False):
 
     @row.wrong("wrapped-to-pi", WRAPPED)

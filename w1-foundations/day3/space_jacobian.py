@@ -59,10 +59,11 @@ def _(screws, q):
       screw by the motions of all joints before it
     last-joint-only: your code transforms each screw only by the motion of the joint
       directly before it. Use the motions of all joints before it
-    product-reversed: your code multiplies the exponentials in the reverse order. The
-      exponential of joint 1 should be on the left
-    one-joint-late: your code transforms each screw before it multiplies the product by
-      the exponential of the preceding joint. Multiply by this exponential first
+    product-reversed: your code multiplies the exponentials in reverse order. The
+      exponential of joint 1 should be the leftmost factor
+    one-joint-late: your code transforms each screw with a product of exponentials that
+      omits the preceding joint. Multiply the product by the exponential of this joint
+      first
     moved-by-the-next: your code also transforms each screw by the motion of the joint
       after it. Use only the motions of the joints before it
     moved-by-all: your code transforms every screw by the motions of all seven joints.
@@ -71,7 +72,7 @@ def _(screws, q):
       after it. Use the motions of the joints before it instead
     adjoint-of-the-inverse: your code transforms the screws with the adjoint of the
       inverse motion. Use the adjoint of the motion itself
-    columns-reversed: your code returns the columns in the reverse order. The column of
+    columns-reversed: your code returns the columns in reverse order. The column of
       joint 1 should come first
     """
     alone = [np.eye(4), *exp_screw(screws, q)]

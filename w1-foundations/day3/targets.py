@@ -125,8 +125,8 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
         says = "Your result does not reach a nearby target. The norm of its pose error "
         return Finding(
             "not-reached",
-            f"{says}is {after:.2g} (in rad and m). Does the loop stop before this norm "
-            "is below 1e-8? Or are its steps too short, for example because the "
+            f"{says}is {after:.2g} (in rad and m). Does your loop stop before this "
+            "norm is below 1e-8? Or are the steps too short, for example because the "
             "damping differs from the damping in the docstring?",
         )
     return _as_the_docstring(T_goal, q_start, limits, after)
@@ -139,16 +139,16 @@ def _half_there(S, M, T_goal, q) -> Finding | None:
     move = np.linalg.norm(e[3:])
     if move < 1e-8 and turn > 1e-4:
         says = (
-            f"The hand's position is correct, but its rotation is {turn:.2g} rad off. "
-            "Does your loop use only the position error in its steps, in its stopping "
-            "test or in its choice of the best q?"
+            f"The hand's position is correct, but its rotation is off by {turn:.2g} "
+            "rad. Does your loop use only the position error in the steps, in the "
+            "stopping test or in the choice of the best q?"
         )
         return Finding("position-only", says)
     if turn < 1e-8 and move > 1e-4:
         says = (
             "The hand's rotation is correct, but its position is "
-            f"{1000 * move:.3g} mm off. Does your loop use only the rotation error "
-            "in its steps, in its stopping test or in its choice of the best q?"
+            f"off by {1000 * move:.3g} mm. Does your loop use only the rotation error "
+            "in the steps, in the stopping test or in the choice of the best q?"
         )
         return Finding("rotation-only", says)
     return None
@@ -183,8 +183,8 @@ def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
     return Finding(
         "not-the-best",
         f"{says} (in rad and m). Does your code return the q with the smallest error? "
-        "If q changes in place, keep a copy of the best q. Are the steps and their "
-        "damping as in the docstring?",
+        "If your code changes q in place, keep a copy of the best q. Do the steps and "
+        "the damping match the docstring?",
     )
 
 

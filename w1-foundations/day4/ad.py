@@ -23,15 +23,16 @@ def _(rng):
 def _(V):
     """v-on-top: your code puts the block [v] in the upper right. The block belongs in
       the lower left, because a linear velocity does not change an angular velocity
-    v-forgotten: your code omits the block [v] in the lower left. This block adds v x
-      omega2 to the linear part of the result
-    second-omega-forgotten: your lower right block is 0. This block should be [omega],
-      which adds omega x v2 to the linear part of the result
+    v-forgotten: your code omits the block [v] in the lower left. For a twist (omega2;
+      v2), this block adds v x omega2 to the linear part of the result
+    second-omega-forgotten: your lower right block is 0. This block should be [omega].
+      For a twist (omega2; v2), this block adds omega x v2 to the linear part of the
+      result
     v-in-both-corners: your code puts [v] in both off-diagonal blocks. The upper right
       block should be 0, because v does not change an angular velocity
     v-last: your lower right block is [v]. Both diagonal blocks should be [omega]
     identity-added: your code adds the identity matrix. Omit the identity matrix,
-      because ad(V) is a rate of change and ad(0) should be 0
+      because ad(0) should be 0
     product-for-v: your lower left block is [v] [omega]. This block should be [v],
       because only the adjoint of a pose contains a product such as [p] R
     omega-everywhere: your lower left block is [omega]. This block should be [v]

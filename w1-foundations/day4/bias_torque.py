@@ -25,7 +25,7 @@ def _(J, G, qd, g):
       torques are half the correct values. Does your code omit a velocity term?
     speed-in-place-of-acceleration: your code passes qd as the acceleration and 0 as the
       velocity. Pass qd as the velocity and 0 as the acceleration
-    damping-added: your code adds the damping torque, 1.0 qd. Omit this torque, because
+    damping-added: your code adds the damping torque (1.0 qd). Omit this torque, because
       MuJoCo and task 4.8 treat it separately
     """
     holding, tau = (inverse_dynamics(J, G, v, STILL, g) for v in (STILL, qd))

@@ -28,10 +28,10 @@ def _(rng):
 def _(M, qd, masses, coms_world, g):
     """speed-squared-too-early: your code squares qd before the multiplication by M. The
       kinetic energy should contain qd on both sides of M, as in qd^T M qd
-    every-mass-everywhere: your code multiplies every link's height by the mass of the
-      whole arm. Use the mass of each link instead
-    distance-for-height: your code uses the distance of each centre of mass from the
-      origin as its height. Use only the component of the position along -g instead
+    every-mass-everywhere: your code multiplies the height of each link by the mass of
+      the whole arm. Multiply by the mass of that link instead
+    distance-for-height: your code uses the distance between the origin and each centre
+      of mass as the height. Use the component of the position along `-g` instead
     """
     K, U = energy(M, qd, masses, coms_world, g)
     all_at_once = -coms_world.sum(axis=0) @ g  # of 1 kg at each centre

@@ -49,14 +49,15 @@ def _(M, bias, damping, qd, tau):
     armature-twice: your code adds the armature to M. Use M unchanged, because M already
       contains the armature (task 4.3)
     mass-of-the-step: your code uses M + h damping, which is the matrix of the
-      simulator's implicit step with h = 2 ms. Use only M, because qdd is the
-      acceleration at this instant
+      simulator's implicit step with h = 2 ms. Use M alone, because qdd is the
+      acceleration at the present instant
     velocity-returned: your code returns qd + h qdd, which is the velocity after a step
       of h = 2 ms. Return qdd instead
     divided-entry-by-entry: your code takes the reciprocal of each entry of M (`1 / M`).
       Use the matrix inverse of M instead, or solve the linear system
     damping-not-divided: your code subtracts the damping torque after the multiplication
-      by M^-1. Subtract all torques before this multiplication
+      by M^-1. Subtract this torque before the multiplication, because the result is an
+      acceleration
     only-torque-divided: your code multiplies only `tau` by M^-1. Subtract `bias` and
       the damping torque from `tau` first, because both are also torques
     """
@@ -87,8 +88,8 @@ def half_solved(M, bias, damping, qd, tau):
 
 @row.wrong
 def one_factor_twice(M, bias, damping, qd, tau):
-    """your code uses L again in the second triangular system. M equals L L^T, so the
-    second system needs L^T"""
+    """your code uses L again in the second triangular system. M equals L L^T, so use
+    L^T in the second system"""
     L = np.linalg.cholesky(M)
     return solve(L, solve(L, tau - bias - damping * qd))
 

@@ -39,13 +39,13 @@ def torque(
 
 @row.wrongs
 def _(J, masses, coms_world, g):
-    """gravity-sign: your code returns the torque that gravity exerts. Return the motor
-      torque that balances this torque, which has the opposite sign
+    """gravity-sign: your code returns the torque that gravity exerts. Return the
+      negative of this torque, which is the motor torque that balances gravity
     velocity-of-the-origin: your code uses the lower half of J_space, which gives the
-      velocity of the body-fixed point at the world origin. Use the velocity of the
-      centre of mass, where the weight acts
+      velocity of the body-fixed point at the world origin. Use the velocity of each
+      centre of mass instead, because the weight of a link acts at its centre of mass
     omega-rows-for-v: your code uses the upper half of J_space, which gives omega. Use
-      the velocity of the centre of mass instead, which is v + omega x c
+      the velocity of each centre of mass c instead, which is v + omega x c
     """
     given = masses, coms_world, g
     tau = gravity_torque(J, *given)
@@ -62,9 +62,9 @@ def _(J, masses, coms_world, g):
     """links-not-cut: your code includes all links in the torque of every joint. Include
       only the links that the joint carries: its own link and the links after it
     own-link-only: your code includes only the joint's own link in each torque. Include
-      the links after it as well, because the joint also carries them
-    own-link-left-out: your code omits the joint's own link in each torque. Include this
-      link, because the joint also carries it
+      all later links as well, because the joint also carries these links
+    own-link-left-out: your code omits the joint's own link from each torque. Include
+      this link, because the joint also carries its own link
     link-before-too: your code also includes the link before the joint in each torque.
       Omit this link, because it does not move with the joint
     links-on-the-wrong-side: your code includes the links from the base to the joint's

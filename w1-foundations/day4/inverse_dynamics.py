@@ -54,17 +54,17 @@ def passes(
 
 @row.wrongs
 def _(J, G, qd, qdd, g):
-    """base-acceleration-sign: your code uses g instead of -g as the acceleration of the
-      base. A base at rest under gravity is equivalent to a base that accelerates
-      against g
+    """base-acceleration-sign: your code uses g instead of `-g` as the acceleration of
+      the base. A base at rest under gravity is equivalent to a base with the
+      acceleration `-g` and without gravity
     gravity-only: your code uses neither qd nor qdd, so the result is only the gravity
       torque. Use both arguments
-    armature-added: your code adds the armature torque, 0.1 qdd. Omit this torque,
-      because the task includes only the links
-    damping-added: your code adds the damping torque, 1.0 qd. Omit this torque, because
-      the task includes only the links
-    armature-and-damping-added: your code adds the armature torque, 0.1 qdd, and the
-      damping torque, 1.0 qd. Omit both torques, because the task includes only the
+    armature-added: your code adds the armature torque (0.1 qdd). Omit this torque,
+      because this task models only the links
+    damping-added: your code adds the damping torque (1.0 qd). Omit this torque, because
+      this task models only the links
+    armature-and-damping-added: your code adds the armature torque (0.1 qdd) and the
+      damping torque (1.0 qd). Omit both torques, because this task models only the
       links
     """
     given = {
@@ -88,35 +88,35 @@ def walked(J, G, qd, qdd, g, others):
 
 @row.wrongs
 def _(J, G, qd, qdd, g):
-    """bracket-forgotten: your code omits the term ad(V) S qd of the acceleration. This
-      term is needed because a joint's screw changes direction when it moves with its
-      link
+    """bracket-forgotten: your code omits the term ad(V) S qd from the acceleration.
+      This term is needed because each screw S moves with its link and changes at the
+      rate ad(V) S
     bracket-sign: your code subtracts the term ad(V) S qd from the acceleration. Add
       this term instead
     bracket-twice: your code adds ad(V) S qd twice to the acceleration. Add this term
       only once, because the derivative of S qd is S qdd + ad(V) S qd
     speed-squared: your code adds ad(V) S qd^2 to the acceleration. Add ad(V) S qd
-      instead, because V is already proportional to the joint velocities
+      instead, because V already contributes the second factor of velocity
     bracket-not-transposed: your code uses -ad(V) G V in the wrench. Use -ad(V)^T G V
       instead, because wrenches transform with the transpose of ad(V)
-    velocity-product-forgotten: your code uses only G A as the wrench. The wrench also
-      contains the term -ad(V)^T G V, because G changes when the link moves
-    velocity-of-the-link-before: your code computes the wrench with V before it adds the
-      velocity of the link's own joint. Add this velocity to V first
-    summed-from-the-base: your code sums the wrenches from the base to the joint's own
-      link. Sum the wrenches from the joint's own link to the tip instead, because a
-      motor carries these links
+    velocity-product-forgotten: your code uses only G A as the wrench. Subtract ad(V)^T
+      G V as well, because G changes when the link moves
+    velocity-of-the-link-before: your code computes each link's wrench before it adds
+      the velocity of the link's own joint to V. Add this velocity first
+    summed-from-the-base: your code sums the wrenches on the links from the base to the
+      joint's own link. Sum the wrenches on the links from the joint's own link to the
+      tip instead, because the joint carries these links
     every-link-for-all: your code includes the wrenches on all seven links in every
       torque. Include only the wrenches on the links that the joint carries: its own
       link and the links after it
     moment-only: your code uses only the moments about the world's origin. Use all six
       components of the wrench, because a force also causes a torque about a joint axis
       that does not pass through the origin
-    own-link-left-out: your code omits the wrench on the joint's own link in each
+    own-link-left-out: your code omits the wrench on the joint's own link from each
       torque. Include this wrench, because the joint also carries its own link
-    accelerations-not-added: your code includes only the terms of the link's own joint
-      in each acceleration. Add the acceleration of the previous link, because the
-      joints before this joint also move the link
+    accelerations-not-added: your code omits the acceleration of the previous link from
+      each link's acceleration. Add this acceleration, because the earlier joints also
+      move the link
     nothing-added-outwards: your code resets V and A at every link. Accumulate both
       along the arm
     gravity-at-every-link: your code adds gravity at the base and again at every link.
@@ -124,8 +124,9 @@ def _(J, G, qd, qdd, g):
       to every link
     bracket-not-transposed 2: your code uses ad(V) G V in the wrench. Use -ad(V)^T G V
       instead, because wrenches transform with the transpose of ad(V)
-    gravity-at-every-link 2: your code adds gravity again at every link. Add gravity
-      only at the base, because the recursion propagates this acceleration to every link
+    gravity-at-every-link 2: your code adds gravity at every link instead of at the
+      base. Add gravity only at the base, because the recursion propagates this
+      acceleration to every link
     """
     up = lift(g)
     others = {

@@ -45,13 +45,13 @@ def carried(
 @row.wrongs
 def _(T_links, masses, coms, inertias):
     """com-in-link-axes: your code uses the centre of mass in the link frame. Transform
-      the centre of mass to the world frame with T
+      the centre of mass into the world frame with T
     com-turned-back: your code rotates the centre of mass with R^T, which rotates from
       the world frame to the link frame. Use R instead
     com-seen-from-the-link: your code transforms the centre of mass with the inverse of
       T. Use T itself, which maps link coordinates to world coordinates
     inertia-not-turned: your inertia about the centre of mass is still expressed in the
-      link frame. Rotate the inertia to the world frame
+      link frame. Rotate the inertia into the world frame
     inertia-turned-back: your code computes R^T I R. Compute R I R^T instead, which
       expresses the inertia in the world frame
     inertia-diagonal: your code uses only the diagonal of each inertia matrix. Use all
@@ -79,16 +79,17 @@ def _(T_links, masses, coms, inertias):
 @row.wrongs
 def _(T_links, masses, coms, inertias):
     """left-in-link-axes: your code does not use T_links, so each matrix is expressed in
-      its link frame. Transform each matrix to the world frame
-    adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. The factor to the right of
-      G should map a twist from the world frame to the link frame. The factor to the
-      left of G should be its transpose
-    origin-for-com: your code places the mass at the link's origin. Place the mass at
-      the centre of mass
+      its link frame. Transform each matrix into the world frame
+    adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. The factor on the right of
+      G should map a twist from the world frame to the link frame. The factor on the
+      left should be the transpose of the factor on the right
+    origin-for-com: your code places each link's mass at the origin of the link frame.
+      Place this mass at the link's centre of mass
     poses-multiplied: your code multiplies the poses along the arm. Use each pose
       unchanged, because the poses in T_links are already relative to the world
     last-link-for-all: all seven of your matrices belong to link7. Does your loop
-      overwrite one array and append it for every link? Create a new array each time
+      overwrite one array and append this array for every link? Create a new array for
+      each link
     already-summed: your code adds the inertias of all later links to each link's
       matrix. Each matrix should contain only the inertia of its own link
     """
@@ -111,7 +112,7 @@ def _(T_links, masses, coms, inertias):
 @row.wrong
 def pose_of_the_link_before(T_links, *body):
     """your code uses the pose of the previous link for each link. The pose of link1 is
-    T_links[0], so use T_links[i] for matrix i"""
+    `T_links[0]`, so use `T_links[i]` for the matrix with index i"""
     return link_inertias([np.eye(4), *T_links[:-1]], *body)
 
 

@@ -30,8 +30,9 @@ def links(J, G, counts):
 def _(J, G, armature):
     """armature-per-link: your code adds the armature once per link. Add the armature
       only once, because each joint has only one rotor
-    mirrored-with-the-diagonal: your code adds a triangle of M and its transpose, which
-      doubles the diagonal. Mirror only the off-diagonal entries
+    mirrored-with-the-diagonal: your code adds a triangle of M, including the diagonal,
+      to its transpose. This sum doubles the diagonal, so mirror only the off-diagonal
+      entries
     """
     M = mass_matrix(J, G, armature)
     return {
@@ -44,15 +45,15 @@ def cut(J, G, armature):
     """columns-not-cut: your code uses all columns of J_space for each link. Set the
       columns of the joints after the link to 0, because these joints do not move the
       link
-    own-joint-left-out: your code omits the column of the link's own joint in each
-      link's Jacobian. Include this column, because this joint also moves the link
-    next-joint-too: your code includes the column of the next joint in each link's
-      Jacobian. Omit this column, because this joint does not move the link
-    columns-cut-on-the-wrong-side: your code uses the columns of the link's own joint
-      and of all later joints in each link's Jacobian. Use the columns of this joint and
-      of all earlier joints instead
-    own-joint-only: your code uses only the column of the link's own joint in each
-      link's Jacobian. Include the columns of all joints before this joint, because they
+    own-joint-left-out: in each link's Jacobian, your code omits the column of the
+      link's own joint. Include this column, because this joint also moves the link
+    next-joint-too: in each link's Jacobian, your code also includes the column of the
+      next joint. Omit this column, because the next joint does not move the link
+    columns-cut-on-the-wrong-side: in each link's Jacobian, your code uses the columns
+      of the link's own joint and of all later joints. Use the columns of the link's own
+      joint and of all earlier joints instead
+    own-joint-only: in each link's Jacobian, your code uses only the column of the
+      link's own joint. Include the columns of all earlier joints, because these joints
       also move the link
     """
     joint = np.arange(7)
@@ -74,11 +75,11 @@ row.wrongs(cut)
 def _(J, G, armature):
     """corners-swapped: your code uses the off-diagonal blocks of G with the wrong sign.
       Use G unchanged. Your M is still symmetric and positive definite, so these two
-      properties do not show the mistake
-    corners-dropped: your code adds the rotational and translational parts separately.
-      Include the off-diagonal blocks of G as well, because they couple the two parts
+      properties do not reveal the mistake
+    corners-dropped: your code omits the off-diagonal blocks of G. Use all of G, because
+      these blocks couple rotation and translation
     angular-half-only: your code uses only the angular half of J_space. Use all six
-      rows, because the links' linear velocities also contribute
+      rows, because the links' linear velocities also contribute to the kinetic energy
     linear-half-only: your code uses only the linear half of J_space and the masses. Use
       all six rows and all of G, because a rotating link also has rotational energy
     """
@@ -95,8 +96,8 @@ def _(J, G, armature):
 
 @row.wrong
 def not_summed_back(J, G, armature):
-    """your code includes only one link in each entry of M. Sum over all links that both
-    joints move"""
+    """your code includes only one link in each entry of M. Each entry belongs to two
+    joints, so sum over all links that both joints move"""
     M = np.diag(armature)
     for i in range(7):
         for j in range(7):

@@ -35,10 +35,10 @@ def _(m, c, I):
       [c]^T. The moment of inertia about an axis depends on the distance from the axis,
       not on the coordinate along the axis
     distance-in-all-directions: your upper left block uses |c|^2 for all three axes. Use
-      m [c] [c]^T instead, because only the distance from an axis contributes to the
-      moment of inertia about this axis
-    products-of-inertia-sign: your code negates the off-diagonal entries of the inertia.
-      The given matrix is already the inertia matrix, so use all entries unchanged
+      m [c] [c]^T instead, because the moment of inertia about each axis depends only on
+      the distance from that axis
+    products-of-inertia-sign: your code negates the off-diagonal entries of the given
+      inertia matrix. Their signs are already correct, so use all entries unchanged
     """
     C = skew(c)
     own = np.diag(np.diag(I))
@@ -69,7 +69,7 @@ def _(m, c, I):
     one-corner-empty: one of your two off-diagonal blocks is 0. The matrix is symmetric,
       so each off-diagonal block should be the transpose of the other
     mass-forgotten-in-the-corners: your two off-diagonal blocks contain [c] without the
-      mass. Both blocks should also contain the mass
+      mass. Multiply both blocks by the mass
     mass-everywhere: your lower right block has the mass in all nine entries. Only the
       diagonal should contain the mass
     blocks-v-omega: your blocks are in the order (v; omega). The block of omega should

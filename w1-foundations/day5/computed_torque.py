@@ -37,28 +37,28 @@ def _(rng):
 
 @row.wrongs
 def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """gains-outside-M: your code adds the PD terms after the product with M. Multiply
-      these terms by M too, because otherwise joints with different inertias respond
-      differently
+    """gains-outside-M: your code adds the PD terms after the multiplication by M.
+      Multiply these terms by M too, because otherwise joints with different inertias
+      respond differently
     damping-forgotten: your code omits the damping torque. Add `damping * qd`, because
       `bias` does not contain this torque
     friction-of-the-error: your code multiplies `damping` by ed. Multiply `damping` by
       the measured velocity qd instead
     friction-of-the-reference: your code multiplies `damping` by qd + ed, which is the
       velocity of the reference. Multiply `damping` by the measured velocity qd instead
-    M-forgotten: your code omits M and adds an acceleration to torques. Multiply the
-      acceleration by M
-    bias-forgotten: your code omits `bias`, so the PD terms have to balance gravity and
-      the Coriolis torque. Add `bias` to the torque
+    M-forgotten: your code omits M, so it adds an acceleration to torques. Multiply this
+      acceleration by M first
+    bias-forgotten: your code omits `bias`, so the PD terms must compensate for gravity
+      and the Coriolis torque. Add `bias` to the torque
     bias-sign: your code subtracts `bias`. Add `bias` instead, because the motors must
       supply this torque even at zero acceleration
     everything-through-M: your code multiplies `bias` and the damping torque by M. Add
-      both after the product with M, because both are already torques
-    reference-outside-M: your code adds qdd_ref after the product with M. Multiply
-      qdd_ref by M too, because it is an acceleration
-    measured-velocity-damped: your code uses -kd qd as the derivative term, so the
+      both after the multiplication by M, because both are already torques
+    reference-outside-M: your code adds qdd_ref after the multiplication by M. Multiply
+      qdd_ref by M too, because qdd_ref is an acceleration
+    measured-velocity-damped: your code uses `-kd qd` as the derivative term, so the
       controller also brakes the desired motion. Use kd ed instead
-    armature-twice: your code adds the armature, 0.1 kg m2, to M. Use M unchanged,
+    armature-twice: your code adds the armature (0.1 kg m2) to M. Use M unchanged,
       because M already contains the armature
     bias-alone-at-the-goal: your code returns only `bias` if e is 0. Use the same
       formula for every e, because the arm may still be moving

@@ -76,10 +76,10 @@ def _(t, omega, zeta):
       zeta omega instead of omega. For zeta below 1, the error should oscillate. For
       zeta above 1, the error should be a sum of two exponentials
     envelope-alone: your code returns only the envelope e^(-zeta omega t). The
-      derivative of the error should be 0 at t = 0, and the derivative of the envelope
-      is -zeta omega
+      derivative of the error should be 0 at t = 0, but the derivative of the envelope
+      is `-zeta omega`
     envelope-of-omega: your code returns e^(-omega t) for every zeta. The derivative of
-      the error should be 0 at t = 0, and the derivative of this curve is -omega
+      the error should be 0 at t = 0, but the derivative of this curve is `-omega`
     half-the-damping: your code uses half the damping ratio. In the error equation, the
       coefficient of the first derivative is 2 zeta omega
     output-in-place-of-error: your code returns the step response, which rises from 0 to
@@ -102,8 +102,8 @@ def _(t, omega, zeta):
     """window-around-one: your code also uses the formula for zeta = 1 for values of
       zeta near 1, where this formula is not accurate. Use the formula only if zeta
       equals 1 up to rounding, for example within 1e-9
-    time-from-the-first: your code measures time from t[0]. The error should be 1 at t =
-      0, even if t does not contain 0
+    time-from-the-first: your code measures time from `t[0]`. The error should be 1 at t
+      = 0, even if the array t does not contain 0
     first-entry-one: your code always sets the first entry to 1. The error should be 1
       only at t = 0
     """
@@ -123,10 +123,10 @@ def _(t, omega, zeta):
       Choose the two weights so that the derivative of the error is 0 at t = 0
     weights-swapped: your code swaps the weights of the two exponentials for zeta above
       1. The slow exponential should have the larger weight
-    weights-summed: the derivative of your error at t = 0 is not 0 for zeta above 1. If
-      your formula contains two exponentials, subtract the terms in its numerator and in
-      its denominator instead of adding them. If it contains cosh and sinh, its factor
-      of sinh is inverted
+    weights-summed: for zeta above 1, the derivative of your error at t = 0 is not 0. If
+      your formula contains two exponentials, replace the plus sign with a minus sign in
+      both the numerator and the denominator. If your formula contains cosh and sinh,
+      use the reciprocal of the factor of sinh
     critical-above-one: your code returns the curve for zeta = 1 for every zeta above 1.
       The error should decay more slowly for a larger zeta
     """

@@ -32,10 +32,10 @@ def _(e, ed, kp, kd, g_at_q):
       gravity torque to the PD torque unchanged, because gains apply only to errors
     gravity-at-the-goal-only: your code returns only the gravity torque if e is 0, and
       only the PD torque otherwise. Always return the sum of both torques
-    gravity-at-rest-only: your code adds the gravity torque only where ed is 0. Always
-      add this torque, because gravity also acts on a moving arm
+    gravity-at-rest-only: your code adds the gravity torque only for joints whose ed is
+      0. Always add this torque, because gravity also acts on a moving arm
     nothing-at-the-goal: your code returns 0 if e is 0. Use the same formula for every
-      e, because the motors must also support the weight of the arm at the goal
+      e, because the motors must support the weight of the arm even at the goal
     """
     springs = kp * e + kd * ed
     away = np.any(e)

@@ -35,7 +35,7 @@ def wrapped(angle):
 WRAPPED = Change(
     "error-wrapped",
     "your code wraps {name} to [-pi, pi]. Use {name} unchanged, because e and e + 2 "
-    "pi are different errors of a joint with limits",
+    "pi are different errors for a joint with limits",
     wrapped,
     hidden="no error there exceeds half a turn",
 )

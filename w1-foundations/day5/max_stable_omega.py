@@ -18,13 +18,12 @@ def _(h):
     """undamped-limit: your code returns 2 / h, which is the stability limit of a spring
       without damping. With critical damping, the limit is lower, because the damping
       torque uses the velocity at the start of the step
-    one-over-h: your code returns 1 / h. Return the omega at which the step matrix has
-      the eigenvalue -1 instead
+    one-over-h: your code returns 1 / h. Return the omega at which the matrix of the
+      step has an eigenvalue of -1
     larger-root: your code returns the absolute value of the negative root of the
       quadratic equation. Return the positive root instead
-    nyquist: your code returns the Nyquist frequency pi / h, which limits the signals
-      that can be sampled. Return the omega at which the step matrix has the eigenvalue
-      -1 instead
+    nyquist: your code returns the Nyquist frequency pi / h, which is not a stability
+      limit. Return the omega at which the matrix of the step has an eigenvalue of -1
     in-hertz: your code returns the limit in Hz. Return the limit in rad/s instead
     """
     return {

@@ -82,15 +82,15 @@ def summed(sums):
 @summed
 def _(e, ed, integral, ki, dt, clamp):
     """trapezoid-of-the-error: your code averages e with the error of the previous step.
-      The integral should grow by e dt
+      The integral should change by e dt
     trapezoid-of-the-error 2: your code averages e with the error of the next step. The
-      integral should grow by e dt
-    old-sum-clamped: your code clamps the old integral before it adds e dt. Clamp the
-      integral after the addition of e dt
+      integral should change by e dt
+    old-sum-clamped: your code clamps the old integral before it adds e dt. Add e dt
+      first, and then clamp the integral
     error-clamped: your code clamps the error instead of the integral, so the integral
-      can still grow without bound. Clamp the integral after the addition of e dt
+      can still grow without bound. Add e dt first, and then clamp the integral
     step-clamped: your code clamps only e dt, so the integral can still grow without
-      bound. Clamp the integral after the addition of e dt
+      bound. Add e dt first, and then clamp the integral
     frozen-at-the-limit: your code keeps the old integral if the new integral exceeds
       the limit. Clamp the new integral to the limit instead
     emptied-at-the-limit: your code resets the integral to 0 if the integral exceeds the
@@ -108,7 +108,7 @@ def _(e, ed, integral, ki, dt, clamp):
     old-sum-clamped 2: your code clamps the old integral and e dt separately. Clamp
       their sum instead
     frozen-at-the-limit 2: your code never changes an integral that is at its limit. An
-      error of the opposite sign should reduce this integral
+      error of the opposite sign should reduce the magnitude of this integral
     """
     step = e * dt
     new = integral + e * dt
@@ -134,8 +134,8 @@ def _(e, ed, integral, ki, dt, clamp):
 
 @row.wrongs
 def _(e, ed, integral, kp, kd, ki, dt, clamp):
-    """clamped-too-late: your code computes the acceleration from the integral before
-      the clamp. Use the clamped integral instead
+    """clamped-too-late: your code computes the acceleration from the unclamped
+      integral. Use the clamped integral instead
     bound-not-handed-back: your code uses the clamped integral in the acceleration, but
       it returns the unclamped integral. Return the clamped integral too, so that the
       integral cannot grow without bound

@@ -28,15 +28,15 @@ def _(tau, limits):
       at the lower limit too
     below-only: your code clamps torques only at the lower limit. Clamp the torques at
       the upper limit too
-    sign-lost: your code replaces a negative torque beyond its limit with the positive
-      limit. Clamp this torque to minus the limit
+    sign-lost: your code clamps a torque below the negative limit to the positive limit.
+      Clamp this torque to the negative limit instead
     limits-typed-in: your code uses the constants 87 and 12 N m, which are the limits of
       the Panda's motors. Use the argument `limits`, because another arm has other
       limits
     smallest-limit-for-all: your code uses the smallest limit for all joints. Use each
       motor's own limit
-    all-scaled-down: your code scales all seven torques down if one torque exceeds its
-      limit. Clamp only this torque, because the other motors can still supply their
+    all-scaled-down: your code scales down all seven torques if one torque exceeds its
+      limit. Clamp only that torque, because the other motors can still supply their
       full torques
     length-bounded: your code compares the norm of the torque vector with the limits.
       Compare each torque with its own limit
@@ -59,10 +59,10 @@ def _(tau, limits):
       its limit, because the motor can still supply its maximum torque
     the-larger-one: your code returns the torque or its limit, whichever is larger in
       magnitude. Use the smaller magnitude with the sign of the torque
-    always-full: your code replaces every torque with plus or minus its limit. A torque
-      within the limits should not change
+    always-full: your code returns the positive or the negative limit for every torque.
+      A torque within the limits should not change
     one-over-stops-all: your code sets all seven torques to 0 if one torque exceeds its
-      limit. Clamp only this torque, because the other motors can still supply their
+      limit. Clamp only that torque, because the other motors can still supply their
       torques
     nothing-within-the-limits: your code returns 0 if all torques are within their
       limits. Torques within their limits should not change

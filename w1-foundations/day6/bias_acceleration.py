@@ -53,8 +53,8 @@ def bias(
 
 @row.wrongs
 def _(J_space, qd, p):
-    """of-the-origin: your code returns only the sum of ad(V) S qd, whose linear part
-      belongs to the world origin. Convert this linear part to the point p
+    """of-the-origin: your code returns only the sum of ad(V) S qd. The linear part of
+      this sum belongs to the world origin, so convert it to the point p
     no-centripetal: your code omits the term omega x (velocity of p). This term is
       needed because a point on a circle accelerates towards the centre even at constant
       speed
@@ -71,10 +71,10 @@ def _(J_space, qd, p):
       once, because the factor 2 belongs to the Coriolis acceleration in a rotating
       frame
     p-sign: your code swaps the two factors of each cross product with p, which reverses
-      its sign. Use alpha x p and omega x p instead
+      the sign of the product. Use alpha x p and omega x p instead
     ad-swapped: either your code swaps V and S in ad(V) S, or it sums the twists from
-      the tip instead of the base. Both mistakes reverse the sign of the sum of ad(V) S
-      qd
+      the tip instead of the base. Either mistake reverses the sign of the sum of ad(V)
+      S qd
     ad-transposed: your code uses ad(V)^T, which transforms wrenches. Use ad(V) itself,
       which transforms screws
     ad-half: the lower left block of your ad(V) is 0. This block should be [v], because

@@ -44,8 +44,8 @@ def _(K, Lambda):
     """Lambda-ignored: your code returns 2 sqrt(K), which is the critical damping of a
       unit mass. Use the argument `Lambda` as well
     another-design: your code diagonalises Lambda and K together, which gives another
-      critically damped design. Return the sum of the two products of sqrt(Lambda) and
-      sqrt(K) instead
+      critically damped design. Multiply sqrt(Lambda) and sqrt(K) in both orders, and
+      return the sum of the two products
     diagonal-only: your code uses 2 sqrt(k m) for each axis, with m from the diagonal of
       Lambda. Use the matrix square root of Lambda instead, because Lambda couples the
       axes
@@ -53,12 +53,12 @@ def _(K, Lambda):
       Add the products in both orders, so that the result is symmetric
     half-of-it: your code uses only one of the two products of sqrt(Lambda) and sqrt(K).
       Add the product with the factors in the opposite order
-    factor-two: your code multiplies the result by an extra factor of 2. For single
-      numbers k and m, the sum of the two products is already 2 sqrt(k m)
+    factor-two: your code multiplies the result by an extra factor of 2. For scalars k
+      and m, the sum of the two products is already 2 sqrt(k m)
     factor-two-missing: your code averages the two products of sqrt(Lambda) and sqrt(K).
-      Add these products instead
-    root-on-both-sides: your code has sqrt(Lambda) on both sides of sqrt(K), so the
-      result is proportional to the mass. The result should be proportional to the
+      Add the two products instead
+    root-on-both-sides: your code multiplies sqrt(K) by sqrt(Lambda) on both sides, so
+      the result is proportional to the mass. The result should be proportional to the
       square root of the mass
     root-of-the-product: your code computes 2 sqrt(K Lambda) entry by entry. Use the
       matrix square root of Lambda instead

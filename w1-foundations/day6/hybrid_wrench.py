@@ -30,24 +30,23 @@ def at(row, value, wrench):
 
 @row.wrongs
 def _(e, V_err, K, D, force):
-    """pushes-up: your code uses `force` with the wrong sign. The z axis points up, and
+    """pushes-up: your code uses `force` with the wrong sign. The z axis points up, but
       the hand should push down
     spring-left-in: your code keeps the spring force along z, so the normal force
       depends on the height of the hand. Remove the spring force along z
     damper-left-out: your code omits the damping force along z. Remove only the spring
       force along z
-    moment-in-place-of-force: your code replaces entry 2, which is the moment about z.
-      The last three entries are the force, so the force along z is entry 5
+    moment-in-place-of-force: your code changes entry 2, which is the moment about z.
+      Change entry 5 instead, which is the force along z
     spring-everywhere: your code does not use the argument `force`, so the result is the
       impedance wrench in all six directions. Replace the spring force along z with
       `-force`
     along-x: your code applies `force` along x. The force should act along z
-    spring-couples-into-z: your code removes only the spring force of the error along z.
-      The other five errors also produce a spring force along z, so remove the whole
-      last entry of K e
-    column-in-place-of-row: your code sets the error along z to 0, which removes the
-      last column of K. Remove the spring force along z instead, which is
-      `K[5] @ e`
+    spring-couples-into-z: your code removes only the contribution of the error along z
+      from the spring force along z. The other five errors also contribute to this
+      force, so remove the whole last entry of K e
+    column-in-place-of-row: your code sets the error along z to 0, so it ignores the
+      last column of K. Remove the spring force along z instead, which is `K[5] @ e`
     """
     spring, damper = K @ e, D @ V_err
     both = spring + damper
@@ -67,8 +66,8 @@ def _(e, V_err, K, D, force):
 @row.wrongs
 def _(e, V_err, K, D, force):
     """moment-in-place-of-force: your code writes the force to entry 2, which is the
-      moment about z, and omits the damping term of this entry. The last three entries
-      are the force, so the force along z is entry 5
+      moment about z, and omits the damping term of this entry. Change entry 5 instead,
+      which is the force along z, and keep the damping term
     column-in-place-of-row: your code removes the last row and the last column of K.
       Remove only the last row, because an error along z should still contribute to the
       other five directions

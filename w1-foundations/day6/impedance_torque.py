@@ -34,7 +34,7 @@ def _(J, wrench, bias, damping, qd, tau_null):
     bias-sign: your code subtracts `bias`. Add `bias` instead, because the motors must
       supply this torque even at zero acceleration
     damping-sign: your code subtracts the damping torque. Add `damping * qd` instead,
-      because damping opposes the motion and the motors must supply this torque
+      because damping opposes the motion and the motors must compensate for it
     bias-six-times: your code adds `bias` once for each of the six rows of J. Add `bias`
       only once
     pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T

@@ -17,7 +17,7 @@ def _(e, V_err, K, D):
     """diagonals: your code uses only the diagonals of K and D. Use the whole matrices,
       because the six directions are coupled
     millimetres: your code converts the linear error to millimetres. Use metres, because
-      K is in N/m
+      the linear stiffness in K is in N/m
     """
     return {
         "diagonals": np.diag(K) * e + np.diag(D) * V_err,

@@ -39,26 +39,27 @@ def _(rng):
 
 @row.wrongs
 def _(J, M, Lambda, tau):
-    """another-projector: your result does not accelerate the hand, but it is another
+    """another-projector: your result does not accelerate the hand, but it is the wrong
       projection of `tau`. Subtract J^T times a wrench from `tau`, and compute this
       wrench with Lambda
-    acceleration: your code returns a joint acceleration that does not accelerate the
-      hand. Multiply this acceleration by M to get a torque
-    not-projected: your code returns `tau` unchanged, so `tau` also accelerates the
-      hand. Subtract the part of `tau` that accelerates the hand
-    kinematic-projector: your code uses I - J^+ J, which is the projector for joint
+    acceleration: your code returns the joint acceleration that the correct torque
+      causes. Multiply this acceleration by M to obtain the torque
+    not-projected: your code returns `tau` unchanged, so your result also accelerates
+      the hand. Subtract the part of `tau` that accelerates the hand
+    kinematic-projector: your code uses `I - J^+ J`, which is the projector for joint
       velocities. Use the projector for torques instead, which also depends on M
     M-for-identity: your code multiplies `tau` by M before the subtraction. Subtract
       from `tau` itself, because M tau is not a torque
     projector-transposed: your code subtracts M^-1 J^T Lambda J tau from `tau`. Subtract
-      J^T Lambda J M^-1 tau instead, because J M^-1 tau is the acceleration of the hand
+      J^T Lambda J M^-1 tau instead, because J M^-1 tau is the hand acceleration that
+      `tau` causes
     the-other-part: your code returns the part of `tau` that accelerates the hand.
       Subtract this part from `tau`
     position-only: your code removes only the linear acceleration of the hand, so the
       hand still rotates. Remove the angular acceleration too
     pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T
       instead, because J^T maps wrenches to torques
-    pinv-of-transpose: your code uses I - J^T pinv(J^T), which is the projector for
+    pinv-of-transpose: your code uses `I - J^T pinv(J^T)`, which is the projector for
       joint velocities. Use the projector for torques instead, which also depends on M
     """
     acc = solve(M, tau)

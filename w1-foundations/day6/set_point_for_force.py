@@ -26,7 +26,7 @@ def _(rng):
 def _(force, k, surface):
     """millimetres: your code computes the depth in millimetres. All lengths should be
       in metres
-    whole-metres: your code uses the operator `//`, which rounds the depth down to whole
+    whole-metres: your code uses the operator `//`, which rounds down the depth to whole
       metres. Use the operator `/` instead
     docstrings-numbers: your code always uses the stiffness 400, which is the value in
       the docstring. Use the argument `k` instead

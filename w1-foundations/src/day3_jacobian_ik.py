@@ -93,7 +93,7 @@ def log_rotation(R: np.ndarray) -> np.ndarray:
     B = (R + R.T) / 2 - cosine * np.eye(3)  # (1 - cosine) axis axis^T
     column = B[:, np.argmax(np.diag(B))]  # the longest multiple of the axis
     axis = column / np.linalg.norm(column)  # the axis up to its sign
-    return angle * axis * (-1.0 if a @ axis < 0 else 1.0)  # the axis with its sign
+    return angle * axis * (-1.0 if a @ axis < 0 else 1.0)  # the rotation vector near pi
     # endregion 3.3
 
 
@@ -124,7 +124,7 @@ def dls_step(J_site: np.ndarray, e: np.ndarray, damping: float) -> np.ndarray:
     """
     # region 3.5
     J = J_site  # the Jacobian
-    A = J @ J.T + damping**2 * np.eye(6)  # the damped matrix of the six equations
+    A = J @ J.T + damping**2 * np.eye(6)  # the matrix of the linear system
     return J.T @ np.linalg.solve(A, e)  # the step, from the solution for six unknowns
     # endregion 3.5
 
