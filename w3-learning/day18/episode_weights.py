@@ -34,15 +34,15 @@ def _(rng):
 @row.wrongs
 def _(episode):
     """one-over-length: your weights sum to 1 in each episode, so the mean of all
-      weights is not 1. Multiply the weights by the number of rows and divide by the
-      number of episodes
+      weights is not 1. Multiply the weights by the total number of rows, and divide the
+      result by the number of episodes
     sums-to-1: your weights sum to 1 over all rows. The mean of the weights should be 1,
       so multiply the weights by the number of rows
-    length: your weights are proportional to the number of rows of the row's episode.
-      Use the reciprocal of this number instead, so that each episode has the same total
+    length: your code weights each row in proportion to the length of its episode. Use
+      the reciprocal of this length instead, so that each episode has the same total
       weight
     root: your weights are proportional to 1 / sqrt(length), where length is the number
-      of rows of the episode. Use 1 / length instead, so that each episode has the same
+      of rows in the episode. Use 1 / length instead, so that each episode has the same
       total weight
     by-runs: your code starts a new episode wherever the episode number changes. Rows
       with the same number belong to one episode, even if rows of other episodes lie
