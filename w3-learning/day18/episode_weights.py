@@ -50,8 +50,8 @@ def _(episode):
     equal: your code gives each row the weight 1, so a long episode has more influence
       than a short episode. Make each weight inversely proportional to the length of the
       row's episode
-    per-episode: your function returns one weight per episode. Return one weight per
-      row, which is the weight of the row's episode
+    per-episode: your function returns one weight per episode. Return one weight per row
+      instead, and give each row the weight of its episode
     largest-number: your code uses the largest episode number plus 1 as the number of
       episodes. Count the distinct episode numbers instead, because some numbers can be
       missing
