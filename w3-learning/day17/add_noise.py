@@ -40,12 +40,12 @@ row.at_least_0(abar="a fraction")
 def _(x0, noise, abar):
     """roots-forgotten: your code uses the factors abar and 1 - abar. Use the square
       roots of these factors instead, because abar and 1 - abar are fractions of the
-      power
+      power, and the power is proportional to the square of the amplitude
     noise-root-forgotten: your code multiplies the noise by 1 - sqrt(abar). Use sqrt(1 -
-      abar) instead, because the squares of the factors of data and noise should sum to
-      1
+      abar) instead, because the squares of the two factors should sum to 1
     abar-as-factor: your code uses the factors abar and sqrt(1 - abar^2). Use sqrt(abar)
-      and sqrt(1 - abar) instead, because abar is a fraction of the power
+      and sqrt(1 - abar) instead, because abar is a fraction of the power, and the power
+      is proportional to the square of the amplitude
     """
     a = abar[:, None]
     keep = np.sqrt(a)

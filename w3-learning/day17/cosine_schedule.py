@@ -31,32 +31,34 @@ row.at_least_0(T="a number of levels", answer="fractions")
 @row.wrongs
 def _(T):
     """linear: your function returns the linear schedule, with beta from 0.0001 to 0.02.
-      Use the cosine schedule instead. With few levels, the linear schedule leaves much
-      of the data's power at the noisy end
+      Use the cosine schedule instead. With few levels, the linear schedule keeps much
+      of the data's power even at the noisiest level
     no-square: your code uses the cosine as f. Use the square of the cosine instead,
-      because f is proportional to the power that is left
+      because f is proportional to the data's remaining power
     no-offset: your code omits the offset in f. Replace t / T by (t / T + 0.008) / 1.008
     no-cap: your code does not limit beta, so abar is about 0 at the noisiest level.
       Limit beta to at most 0.999, because a sampler divides by the square root of abar
-    from-level-0: your code computes abar of level t as f(t) / f(0), so level 0 has no
-      noise. Multiply the factors 1 - beta of levels 0 to t instead, because level t
-      also removes power
-    from-level-0 2: your code uses f(t) as abar of level t, so level 0 has almost no
-      noise. Multiply the factors 1 - beta of levels 0 to t instead, because level t
-      also removes power
+    from-level-0: your code computes abar at level t as f(t) / f(0), so level 0 has no
+      noise. Multiply the factors 1 - beta of levels 0 to t instead. Level t itself also
+      adds noise, so the product should include 1 - beta of level t
+    from-level-0 2: your code uses f(t) as abar at level t, so level 0 has almost no
+      noise. Multiply the factors 1 - beta of levels 0 to t instead. Level t itself also
+      adds noise, so the product should include 1 - beta of level t
     betas: your function returns beta, the fraction of the power that each level
       removes. Return the product of the factors 1 - beta of levels 0 to t instead
     beta-of-the-start: your code computes beta as f(t) - f(t + 1). Divide this
-      difference by f(t), because level t removes a fraction of the power that is left
+      difference by f(t), because beta is the fraction of the remaining power that level
+      t removes
     betas-added: your code adds the values of beta and subtracts their sum from 1.
-      Multiply the factors 1 - beta instead, because each beta is a fraction of the
-      power that is left
+      Multiply the factors 1 - beta instead, because each level removes the fraction
+      beta of the remaining power
     offset-outside: your code divides only the offset 0.008 by 1.008. Divide the whole
       sum t / T + 0.008 by 1.008 instead
     abar-limited: your code limits abar to at least 0.001. Limit beta to at most 0.999
       instead, and then multiply the factors 1 - beta
     ratio-inverted: your code uses f(t) / f(t + 1) as 1 - beta, so this factor is above
-      1. Use f(t + 1) / f(t) instead, because level t leads from f(t) to f(t + 1)
+      1. Use f(t + 1) / f(t) instead, because the data's power falls from f(t) to f(t +
+      1) at level t
     always-at-limit: your code sets beta to 0.999 at every level. Use the smaller of
       0.999 and 1 - f(t + 1) / f(t) instead
     """

@@ -36,38 +36,41 @@ row.at_least_0(abar="a fraction", prev="a fraction")
 @row.wrongs
 def _(x, eps, abar, prev, noise):
     """beta-for-the-variance: your code uses 1 - abar / prev as the variance. Multiply
-      this number by (1 - prev) / (1 - abar) to obtain the variance given x and the
-      clean sample
-    level-of-prev: your code draws from the distribution given the clean sample alone.
-      Draw from the distribution given x and the clean sample instead, whose mean is a
-      weighted sum of both
+      this variance by (1 - prev) / (1 - abar) to obtain the variance of the new sample
+      given x and the clean sample
+    level-of-prev: your code draws from the distribution given only the clean sample.
+      Draw from the distribution given both x and the clean sample instead. The mean of
+      this distribution is a weighted sum of x and the clean sample
     as-ddim: your code adds the fresh noise to the result of `ddim_step`. Add this noise
-      to the mean given x and the clean sample instead, which is a weighted sum of both
+      to the mean given x and the clean sample instead. This mean is a weighted sum of x
+      and the clean sample
     alpha-inverted: your code uses prev / abar as alpha, so alpha is greater than 1. Use
-      abar / prev instead, because the power falls from prev to abar
+      abar / prev instead, because alpha is the factor by which the data's power falls
+      from prev to abar
     alpha-inverted 2: your code uses prev / abar as alpha in both weights, so alpha is
-      greater than 1. Use abar / prev instead, because the power falls from prev to abar
+      greater than 1. Use abar / prev instead, because alpha is the factor by which the
+      data's power falls from prev to abar
     alpha-inverted 3: your code uses prev / abar as alpha and takes the absolute value
-      of the negative variance. Use abar / prev instead, because the power falls from
-      prev to abar
+      of the negative variance. Use abar / prev instead, because alpha is the factor by
+      which the data's power falls from prev to abar
     eps-of-one-step: your code subtracts sqrt(1 - alpha) * eps from x. Use the factor (1
       - alpha) / sqrt(1 - abar) instead, because eps is the total noise in x and not
       only the noise of this step
     variance-of-prev: your code divides both weights by 1 - prev. Divide both weights by
-      1 - abar instead, which is the variance of the innovation
+      1 - abar instead, because 1 - abar is the variance of the innovation
     no-fresh-noise: your function returns the mean without fresh noise. Add the given
       noise, multiplied by the standard deviation
     gain-without-root: your code uses the gain (1 - prev) / (1 - abar). Multiply this
       gain by sqrt(alpha), because the measurement x contains sqrt(alpha) times the
       sample at the level prev
-    innovation-at-prev: your code subtracts sqrt(prev) times the clean sample from x in
-      the innovation. Subtract sqrt(abar) times the clean sample instead, because x is
-      at the level abar
+    innovation-at-prev: in the innovation, your code subtracts sqrt(prev) times the
+      clean sample from x. Subtract sqrt(abar) times the clean sample instead, because x
+      is at the level abar
     variance-without-root: your code uses the variance (1 - prev) * (1 - K), where K is
       the gain. Multiply K by sqrt(alpha), because the measurement x contains
       sqrt(alpha) times the sample at the level prev
-    abar-for-alpha: your code uses abar as alpha. Use abar / prev instead, because the
-      power falls from prev to abar
+    abar-for-alpha: your code uses abar as alpha. Use abar / prev instead, because alpha
+      is the factor by which the data's power falls from prev to abar
     """
     keep, lose = np.sqrt(abar), np.sqrt(1 - abar)
     clean = (x - lose * eps) / keep

@@ -51,9 +51,9 @@ def _(slow, fast, k):
     plain-mean 2: your code uses k / (k + 1) as the weight of the old average, as in the
       mean of all new parameters. Use the weight (1 + k) / (10 + k) instead, but at most
       0.995
-    plain-mean: your function returns the mean of all parameters so far, with the weight
-      (k + 1) / (k + 2) of the old average. Use the weight (1 + k) / (10 + k) instead,
-      but at most 0.995
+    plain-mean: your function returns the mean of all parameters so far, because your
+      code gives the old average the weight (k + 1) / (k + 2). Use the weight (1 + k) /
+      (10 + k) instead, but at most 0.995
     """
     grows = (1 + k) / (10 + k)
 

@@ -39,13 +39,12 @@ def _(x, abar, means, sigma, weights):
     data-width-forgotten 3: your code uses the variance 1 - abar in the exponent. Use
       abar * sigma^2 + 1 - abar instead, which is the variance of each noisy mode
     x-not-deviation: your code multiplies x itself by sqrt(1 - abar) / variance.
-      Multiply the mean deviation of x from the noisy means instead, weighted by the
-      probabilities of the modes given x
+      Multiply the mean deviation of x from the noisy means by this factor instead.
+      Weight the deviations by the probabilities of the modes given x
     nearest-mode: your code uses only the mode nearest to each row. Return the mean
-      noise over all modes instead, weighted by the probabilities of the modes given x
+      noise over all modes, weighted by the probabilities of the modes given x
     nearest-mode 2: your code assigns each row only to its most probable mode. Return
-      the mean noise over all modes instead, weighted by the probabilities of the modes
-      given x
+      the mean noise over all modes, weighted by the probabilities of the modes given x
     weights-only: your code uses the weights of the modes as their probabilities given
       x. Multiply each weight by the density of its mode at x, and normalise the
       products
@@ -53,24 +52,24 @@ def _(x, abar, means, sigma, weights):
       noise given x instead
     score: your function returns the score, which is the gradient of ln p(x). Multiply
       the score by -sqrt(1 - abar) to obtain the mean of the noise
-    overflow: your function returns NaN for a row far from all modes, because all
-      densities of the row underflow to 0. Subtract the largest exponent of each row
+    overflow: your function returns NaN for a row far from all modes, because the
+      densities of all modes underflow to 0. Subtract the largest exponent of each row
       before you call exp
     overflow 2: your code subtracts the same number from the exponents of all rows.
-      Subtract the largest exponent of each row instead, because otherwise a row far
-      from all modes gives 0 / 0
+      Subtract the largest exponent of each row from the exponents of that row instead,
+      because otherwise a row far from all modes gives 0 / 0
     over-all-rows: your code normalises the probabilities over all rows together.
       Normalise each row separately, so that the probabilities of each row sum to 1
     over-all-rows 2: your code normalises the probabilities over all rows together.
       Normalise each row separately, so that the probabilities of each row sum to 1
     per-coordinate: your code computes separate probabilities for each coordinate of a
-      row. Sum the squared deviations over the coordinates in the exponent, because all
+      row. In the exponent, sum the squared deviations over the coordinates, because all
       coordinates of a row belong to the same mode
-    overflow 3: your code subtracts the largest exponent of each mode over all rows,
-      which changes the probabilities. Subtract the largest exponent of each row over
+    overflow 3: for each mode, your code subtracts the largest exponent over all rows,
+      which changes the probabilities. For each row, subtract the largest exponent over
       all modes instead
-    overflow 4: your function returns 0 for a row far from all modes, because all
-      densities of the row underflow to 0. Subtract the largest exponent of each row
+    overflow 4: your function returns 0 for a row far from all modes, because the
+      densities of all modes underflow to 0. Subtract the largest exponent of each row
       before you call exp
     overflow 5: your code adds a small number to the sum of the densities, so all
       probabilities are 0 for a row far from all modes. Subtract the largest exponent of

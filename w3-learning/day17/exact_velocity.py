@@ -43,31 +43,30 @@ def _(x, t, means, sigma, weights):
       x were 0. Multiply x - t * mu by this factor instead, where mu is the mean of the
       mode
     distance-so-far: your function returns the mean displacement from the noise to x.
-      Return the mean velocity instead, which is the mean of data - noise given x
-    division-by-0 2: your code divides by t, which is 0 at t = 0. Use the formula of the
-      conditional mean instead, which divides only by the variance of x in each mode
+      Return the mean velocity instead, which is the mean of `data - noise` given x
+    division-by-0 2: your code divides by t, which is 0 at t = 0. Use the formula for
+      the conditional mean instead, which divides only by the variance of x in each mode
     nearest-mode: your code uses only the mode nearest to each row. Return the mean
-      velocity over all modes instead, weighted by the probabilities of the modes
-      given x
+      velocity over all modes, weighted by the probabilities of the modes given x
     nearest-mode 2: your code assigns each row only to its most probable mode. Return
-      the mean velocity over all modes instead, weighted by the probabilities of the
-      modes given x
+      the mean velocity over all modes, weighted by the probabilities of the modes given
+      x
     weights-only: your code uses the weights of the modes as their probabilities given
       x. Multiply each weight by the density of its mode at x, and normalise the
       products
-    clean: your function returns the mean of the data given x. Return the mean of data -
-      noise given x instead
+    clean: your function returns the mean of the data given x. Return the mean of `data
+      - noise` given x instead
     minus-x: your function returns the mean displacement from x to the data. Return the
-      mean velocity instead, which is the mean of data - noise given x
+      mean velocity instead, which is the mean of `data - noise` given x
     covariance-squared: your code uses t^2 * sigma^2 - (1 - t)^2 as the covariance of x
-      and the velocity. Use t * sigma^2 - (1 - t) instead, because the velocity is data
-      - noise
+      and the velocity. Use t * sigma^2 - (1 - t) instead, because the velocity is `data
+      - noise`
     variance-not-squared: your code uses t * sigma^2 + 1 - t as the variance of x in
       each mode. Use t^2 * sigma^2 + (1 - t)^2 instead, because the variance contains
       the squares of the factors of data and noise
     noisy-means: your code uses t * mu as the mean of the velocity in a mode, where mu
       is the mean of the mode. Use mu instead, because the mean of the noise is 0
-    division-by-0: your code divides by 1 - t, which is 0 at t = 1. Use the formula of
+    division-by-0: your code divides by 1 - t, which is 0 at t = 1. Use the formula for
       the conditional mean instead, which divides only by the variance of x in each mode
     means-only: your code uses the mean mu of a mode as the velocity in this mode. Add
       (x - t * mu) * covariance / variance, because the velocity also depends on x
@@ -75,24 +74,24 @@ def _(x, t, means, sigma, weights):
       Swap these factors, because x is the noise at t = 0 and the data at t = 1
     diffusion-roots: your code uses the factor sqrt(t) for the data and sqrt(1 - t) for
       the noise, as in diffusion. Use t and 1 - t instead, as in `flow_pair`
-    overflow: your function returns NaN for a row far from all modes, because all
-      densities of the row underflow to 0. Subtract the largest exponent of each row
+    overflow: your function returns NaN for a row far from all modes, because the
+      densities of all modes underflow to 0. Subtract the largest exponent of each row
       before you call exp
     overflow 2: your code subtracts the same number from the exponents of all rows.
-      Subtract the largest exponent of each row instead, because otherwise a row far
-      from all modes gives 0 / 0
+      Subtract the largest exponent of each row from the exponents of that row instead,
+      because otherwise a row far from all modes gives 0 / 0
     over-all-rows: your code normalises the probabilities over all rows together.
       Normalise each row separately, so that the probabilities of each row sum to 1
     over-all-rows 2: your code normalises the probabilities over all rows together.
       Normalise each row separately, so that the probabilities of each row sum to 1
     per-coordinate: your code computes separate probabilities for each coordinate of a
-      row. Sum the squared deviations over the coordinates in the exponent, because all
+      row. In the exponent, sum the squared deviations over the coordinates, because all
       coordinates of a row belong to the same mode
-    overflow 3: your code subtracts the largest exponent of each mode over all rows,
-      which changes the probabilities. Subtract the largest exponent of each row over
+    overflow 3: for each mode, your code subtracts the largest exponent over all rows,
+      which changes the probabilities. For each row, subtract the largest exponent over
       all modes instead
-    overflow 4: your function returns 0 for a row far from all modes, because all
-      densities of the row underflow to 0. Subtract the largest exponent of each row
+    overflow 4: your function returns 0 for a row far from all modes, because the
+      densities of all modes underflow to 0. Subtract the largest exponent of each row
       before you call exp
     overflow 5: your code adds a small number to the sum of the densities, so all
       probabilities are 0 for a row far from all modes. Subtract the largest exponent of

@@ -35,7 +35,7 @@ def _(T, n):
     whole-steps: your code decreases the level in steps of T // n, so the number of
       levels is not always n. Use n equally spaced numbers from T - 1 to 0, and round
       them
-    whole-steps 2: your code rounds the distance between levels down, so the last level
+    whole-steps 2: your code rounds down the spacing between levels, so the last level
       is not always 0. Use n equally spaced numbers from T - 1 to 0, and round them
     endpoint-missing: your code decreases the level in steps of (T - 1) / n, so the last
       level is not 0. Divide T - 1 by n - 1 instead, because n levels have n - 1

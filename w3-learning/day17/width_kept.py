@@ -37,13 +37,13 @@ def _(abars, sigma):
       level. Multiply the first entry by sigma, because the standard deviation of the
       signal is sigma * sqrt(abar)
     first-and-last-only: your function returns the cosine of the angle between the first
-      and the last direction. Return the product of the cosines of all steps instead,
-      because each step multiplies the width by the cosine of its angle
+      and the last direction. Return the product of the cosines of the angles of all
+      steps instead, because each step multiplies the width by the cosine of its angle
     last-step-forgotten: your code omits the step from the last level to abar = 1.
-      Multiply the result by the cosine of this step as well
+      Multiply the result by the cosine of the angle of this step as well
     last-step-forgotten 2: your code omits the step from the last level to abar = 1 if
-      `abars` has several entries. Multiply the result by the cosine of this step as
-      well
+      `abars` has several entries. Multiply the result by the cosine of the angle of
+      this step as well
     last-level-0: your code ends with a step to abar = 0, which is pure noise. The last
       step should lead to abar = 1, which is the data without noise
     last-level-first: your code puts abar = 1 before the other levels. Put abar = 1
@@ -61,12 +61,11 @@ def _(abars, sigma):
     start-1: your code starts from the standard deviation 1. Start from the standard
       deviation of the noisy data at the first level instead, which is the norm of the
       first vector
-    lengths-kept: your code divides each scalar product by the square of the first
-      vector's norm. Divide each scalar product by the norms of both vectors instead,
-      which gives the cosine of the angle
-    dots: your code multiplies the scalar products of successive vectors. Divide each
-      scalar product by the norms of both vectors first, which gives the cosine of the
-      angle
+    lengths-kept: your code divides each dot product by the square of the first vector's
+      norm. Divide each dot product by the norms of both vectors instead, which gives
+      the cosine of the angle
+    dots: your code multiplies the dot products of successive vectors. Divide each dot
+      product by the norms of both vectors first, which gives the cosine of the angle
     """
     levels = np.append(abars, 1)
 

@@ -35,11 +35,11 @@ def _(rng):
 @row.wrongs
 def _(first, second):
     """numbers-collide: your code keeps the episode numbers of the second data set, so
-      two episodes can have the same number. Add the largest number in the first set
-      plus 1 to each of these numbers
+      two episodes can have the same number. Shift the numbers of the second set by the
+      largest number in the first set plus 1
     shift-by-last: your code shifts the episode numbers by the last number in the first
-      data set plus 1. Use the largest number in this set instead, because the numbers
-      can be in any order
+      data set plus 1. Use the largest number in this set plus 1 instead, because the
+      numbers can be in any order
     shared-number: your code shifts the episode numbers by the largest number in the
       first data set. Shift by this number plus 1, because the episodes of the second
       set begin at 0

@@ -55,8 +55,8 @@ def _(p, n, k):
       the product to 1. Use F(s)^k, the probability that all k policies have at most s
       successes
     density: your code uses k * F^(k - 1) * f, which is the density of the maximum of k
-      continuous variables. The largest number of successes is discrete: it is s with
-      probability F(s)^k - F(s - 1)^k
+      continuous variables. The largest number of successes is discrete: this number is
+      s with probability F(s)^k - F(s - 1)^k
     possible-numbers: your code divides the expected number of successes by n + 1.
       Divide this number by n instead, because each policy has n starts
     median: your function returns the median of the largest of the k numbers of

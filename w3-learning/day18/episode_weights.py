@@ -34,15 +34,15 @@ def _(rng):
 @row.wrongs
 def _(episode):
     """one-over-length: your weights sum to 1 in each episode, so the mean of all
-      weights is not 1. Multiply the weights by the number of rows and divide by the
-      number of episodes
+      weights is not 1. Multiply the weights by the total number of rows, and divide the
+      result by the number of episodes
     sums-to-1: your weights sum to 1 over all rows. The mean of the weights should be 1,
       so multiply the weights by the number of rows
-    length: your weights are proportional to the number of rows of the row's episode.
-      Use the reciprocal of this number instead, so that each episode has the same total
+    length: your code weights each row in proportion to the length of its episode. Use
+      the reciprocal of this length instead, so that each episode has the same total
       weight
     root: your weights are proportional to 1 / sqrt(length), where length is the number
-      of rows of the episode. Use 1 / length instead, so that each episode has the same
+      of rows in the episode. Use 1 / length instead, so that each episode has the same
       total weight
     by-runs: your code starts a new episode wherever the episode number changes. Rows
       with the same number belong to one episode, even if rows of other episodes lie
@@ -50,8 +50,8 @@ def _(episode):
     equal: your code gives each row the weight 1, so a long episode has more influence
       than a short episode. Make each weight inversely proportional to the length of the
       row's episode
-    per-episode: your function returns one weight per episode. Return one weight per
-      row, which is the weight of the row's episode
+    per-episode: your function returns one weight per episode. Return one weight per row
+      instead, and give each row the weight of its episode
     largest-number: your code uses the largest episode number plus 1 as the number of
       episodes. Count the distinct episode numbers instead, because some numbers can be
       missing

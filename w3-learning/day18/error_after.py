@@ -42,10 +42,10 @@ def _(a, step, T):
     limit: your function returns `step / (1 - a)`, which is the limit of the error for
       infinitely many steps if |a| < 1. Return the sum of the first T terms of the
       geometric series instead
-    limit 2: your function returns `step / (1 - a)` if a is below 1, which is the limit
+    limit 2: for a below 1, your function returns `step / (1 - a)`, which is the limit
       for infinitely many steps. Return the sum of the first T terms of the geometric
       series instead
-    near-1: your code uses `step * T` also for values of a near 1. Use this product only
+    near-1: your code also uses `step * T` for values of a near 1. Use this product only
       for a = 1, and the geometric sum for all other values
     zero-at-1: your function returns 0 for a = 1. In this case each step adds `step` to
       the error, so return `step * T`

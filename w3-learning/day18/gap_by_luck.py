@@ -42,7 +42,7 @@ def _(rng):
 def _(p, n, gap):
     """rates-as-floats: your code compares the difference of the success rates with gap
       / n. Compare the difference of the numbers of successes with `gap` instead,
-      because rounding errors of the rates exclude some pairs
+      because rounding errors in the rates can exclude some pairs
     one-direction: your code includes only the pairs of results in which the first test
       has at least `gap` more successes. Also include the pairs in which the second test
       has more successes
@@ -54,9 +54,9 @@ def _(p, n, gap):
     half-a-start: your function uses a normal approximation with a continuity
       correction. Sum the exact binomial probabilities instead
     half-a-start 2: your function uses a normal approximation with a continuity
-      correction, unless gap is 0. Sum the exact binomial probabilities instead
-    one-direction-doubled: your code doubles the sum over one direction, which counts
-      each pair of equal results twice if gap is 0. Count these pairs only once
+      correction, unless `gap` is 0. Sum the exact binomial probabilities instead
+    one-direction-doubled: your code doubles the one-sided sum. If `gap` is 0, this
+      doubling counts every pair of equal results twice. Count these pairs only once
     sum-of-both: your code uses the distribution of the sum of the two numbers of
       successes. Use the distribution of the difference of these numbers instead
     exactly: your code includes only the pairs of results whose difference is exactly

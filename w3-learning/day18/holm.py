@@ -38,8 +38,8 @@ def _(p):
       of a false positive grows with m, so use the limits 0.05 / m, 0.05 / (m - 1), and
       so on
     bonferroni: your code compares each p-value with Bonferroni's limit 0.05 / m. Use
-      this limit only for the smallest p-value, 0.05 / (m - 1) for the next p-value, and
-      so on
+      this limit only for the smallest p-value. Use 0.05 / (m - 1) for the next p-value,
+      and so on
     no-stop: your code continues after a p-value that is larger than its limit. Stop at
       this p-value, because no larger p-value is significant either
     hochberg: your code starts with the largest p-value (Hochberg's method). Start with
@@ -47,8 +47,8 @@ def _(p):
     sorted: your code returns the mask in the order of the sorted p-values. Entry i of
       the result should refer to p-value i of the argument, so undo the sorting
     benjamini-hochberg: your code uses the method of Benjamini and Hochberg, whose
-      limits are 0.05 / m, 0.10 / m, and so on. Use Holm's limits 0.05 / m, 0.05 / (m -
-      1), and so on, instead
+      limits are 0.05 / m, 0.10 / m, and so on. Use Holm's limits instead (0.05 / m,
+      0.05 / (m - 1), and so on)
     not-equal: your code requires each p-value to be smaller than its limit. Use `<=`
       instead of `<`, because a p-value that is equal to its limit is significant
     one-later: your code starts with the limit 0.05 / (m - 1). Compare the smallest
@@ -56,7 +56,8 @@ def _(p):
     unsorted: your code compares the p-values in the order of the argument. Sort the
       p-values first, and start with the smallest
     first-larger: your code also marks the first p-value that is larger than its limit
-      as significant. Stop before this p-value, because it is not significant
+      as significant. Stop before this p-value, because a p-value above its limit is not
+      significant
     wrong-positions: your code undoes the sorting in the wrong direction. Write entry i
       of the sorted mask to position `order[i]` of the result, where `order` is
       `np.argsort(p)`
@@ -67,7 +68,7 @@ def _(p):
       smallest p-value with 0.05. Compare the smallest p-value with 0.05 / m, and the
       largest with 0.05
     sidak: your code uses Sidak's limits, which begin with 1 - 0.95^(1 / m) and require
-      independent tests. Use Holm's limits 0.05 / m, 0.05 / (m - 1), and so on, instead
+      independent tests. Use Holm's limits instead (0.05 / m, 0.05 / (m - 1), and so on)
     indices: your function returns the indices of the significant differences. Return a
       Boolean mask with one entry for each p-value instead
     negated: your mask is True for the differences that are not significant. Return True

@@ -89,25 +89,26 @@ def chosen_from_all(win, lose, n, level):
 
 @row.wrongs
 def _(win, lose, n, level):
-    """all-pairs-differ: your code assumes that the policies differ on all n starts. The
-      number of differing starts is random, so sum over all possible values of this
-      number
-    expected-number: your code uses only the rounded expected number of differing
-      starts. The number of differing starts is random, so sum over all possible values
-      of this number
+    """all-pairs-differ: your code assumes that the outcomes of the two policies differ
+      on all n starts. The number of starts with different outcomes is random, so sum
+      over all possible values of this number
+    expected-number: your code uses only the rounded expected number of starts with
+      different outcomes. The number of these starts is random, so sum over all possible
+      values of this number
     first-only: your code includes only reported differences in favour of the first
       policy. The sign test is two-sided, so include reported differences in both
       directions
     one-sided: your code uses a one-sided p-value. Use the two-sided p-value of
       `sign_test` instead
     independent: your code treats the numbers of wins and losses as independent, but a
-      start cannot be both. Sum over the number of differing starts, and then over the
-      wins among these starts
-    win-as-share: your code uses `win` as the probability of a win on a differing start.
-      Use win / (win + lose) instead, which is the probability of a win given that the
-      policies differ
-    fair-share: your code uses 1/2 as the probability of a win on a differing start, as
-      if both policies were equally good. Use win / (win + lose) instead
+      start cannot be both. Sum over the number of starts where the two outcomes differ,
+      and then over the number of wins among these starts
+    win-as-share: your code uses `win` as the probability of a win on a start where the
+      two outcomes differ. Use win / (win + lose) instead, which is the probability of a
+      win given that the outcomes differ
+    fair-share: your code uses 1/2 as the probability of a win on a start where the two
+      outcomes differ, as if both policies were equally good. Use win / (win + lose)
+      instead
     normal: your code uses a normal approximation of the p-value. Use the exact p-value
       of `sign_test` instead
     normal-power: your function uses a normal approximation of the power. Sum the
@@ -116,8 +117,8 @@ def _(win, lose, n, level):
     level-fixed: your code compares the p-value with 0.05. Compare the p-value with the
       argument `level` instead
     equal-numbers: your code assigns the same probability to every possible number of
-      differing starts. This number has a binomial distribution with n trials and the
-      probability win + lose
+      starts with different outcomes. This number has a binomial distribution with n
+      trials and the probability win + lose
     chosen-from-all: your binomial coefficient chooses the losses from all n starts.
       Choose the losses from the starts that are not wins, because a start cannot be
       both a win and a loss

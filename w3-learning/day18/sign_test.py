@@ -77,15 +77,17 @@ def _(first, second):
       the observed split, unless the observed split is even. Always include the observed
       split
     wins-only: your code sums the probabilities up to the number of wins, even if there
-      are fewer losses. End the sum at the smaller of the two numbers instead
+      are fewer losses. End the sum at the smaller of the numbers of wins and losses
+      instead
     four-times: your p-value is four times the probability of one tail. Use twice this
       probability instead, because there are two tails
     zero-if-none: your p-value is 0 if the policies differ on no start. In this case
       there is no evidence of a difference, so return 1
     every-win: your code counts each start on which the policies differ as a win for the
-      first policy. Count the start as a loss if only the second policy succeeds
+      first policy. Count such a start as a loss if only the second policy succeeds
     one-sided: your p-value contains only one tail. Include the other tail as well,
-      because a split that is equally uneven in favour of the other policy is as extreme
+      because a split that is equally uneven in favour of the other policy is just as
+      extreme
     first-better: your function returns the probability that the first policy has at
       least the observed number of wins. The test is two-sided, so return twice the
       smaller tail, but at most 1
@@ -93,16 +95,15 @@ def _(first, second):
       the even split. Limit the p-value to 1
     all-starts: your code uses n trials in the binomial distribution, one for each
       start. Use only the starts on which exactly one policy succeeds
-    agreement: your code treats each start on which both policies succeed or both fail
-      as half a win. Omit these starts, because such a start favours neither policy
-    agreement 2: your code treats half of the starts on which both policies succeed or
-      both fail as wins, and half as losses. Omit these starts, because such a start
+    agreement: your code treats each start on which the two policies agree as half a
+      win. Omit these starts, because such a start favours neither policy
+    agreement 2: your code treats half of the starts on which the two policies agree as
+      wins, and the other half as losses. Omit these starts, because such a start
       favours neither policy
-    both-win: your code counts each start on which both policies succeed or both fail
-      once as a win and once as a loss. Omit these starts, because such a start favours
-      neither policy
-    one-split: your p-value is twice the probability of the observed split alone.
-      Include the probabilities of all splits that are more uneven as well
+    both-win: your code counts each start on which the two policies agree as a win and
+      also as a loss. Omit these starts, because such a start favours neither policy
+    one-split: your p-value is twice the probability of the observed split alone. Also
+      include the probabilities of all splits that are more uneven
     mid-p: your p-value includes only half of the probability of the observed split (the
       mid-p-value). Include this probability in full
     all-successes: your code compares the total numbers of successes of the two
@@ -116,9 +117,9 @@ def _(first, second):
     paired-z: your function uses a z-test for the mean difference. Sum the exact
       binomial probabilities instead, because the normal approximation is inaccurate for
       few starts
-    unpaired: your function compares the two success rates as if the policies had
-      different starts. Both policies have the same starts, so use the starts on which
-      exactly one policy succeeds
+    unpaired: your function compares the two success rates as if the policies had been
+      tested on different starts. Both policies are tested on the same starts, so use
+      only the starts on which exactly one policy succeeds
     """
     win, lose = int(np.sum(first & ~second)), int(np.sum(second & ~first))
     d, n, k = win + lose, len(first), min(win, lose)

@@ -14,7 +14,7 @@ def of_all_frequencies(case: Case) -> Finding | None:
             return None
     return Finding(
         "all-frequencies",
-        "Your function returns the largest error with all frequencies. The task "
+        "Your function includes all frequencies in the largest error. The task "
         "considers only the lowest frequency, so use the first term of Poisson's sum.",
     )
 
@@ -56,8 +56,8 @@ def _(spacing, sigma):
       sum as the error. The error is sigma^2 times the derivative of this term with
       respect to the position
     twice-the-first-frequency: your code uses the exponent of the second term of
-      Poisson's sum. Use the exponent of the first term instead, which has a period of
-      one pixel
+      Poisson's sum. Use the exponent of the first term instead, because this term has
+      the lowest frequency
     without-2-pi: your code omits a factor of 2 * pi. The derivative of cos(2 * pi * u)
       with respect to u contains this factor
     inverted: your code divides the spacing by sigma. Divide sigma by the spacing

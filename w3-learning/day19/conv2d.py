@@ -127,7 +127,7 @@ def _(image, kernel, stride):
       not to its rows. Move the window by the stride along both axes
     apart: your code moves the window by the size of the kernel. Move the window by the
       stride instead, so that windows can overlap
-    sampled-first: your code omits the pixels between the strides before it applies the
+    sampled-first: your code subsamples the image by the stride before it applies the
       kernel. Apply the kernel to adjacent pixels, and use the stride only as the
       distance between windows
     """

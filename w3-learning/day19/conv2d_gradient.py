@@ -64,11 +64,11 @@ def of_image(image, kernel, stride, d, added=True):
 @row.wrongs
 def _(image, kernel, stride, d):
     """kernel-flipped: your code flips the gradient with respect to the kernel along
-      both axes. Entry [a, b] of this gradient should be the sum of d times pixel [a, b]
-      of each window
+      both axes. Entry [a, b] of this gradient should be the sum over all windows of d
+      times pixel [a, b] of the window
     image-by-flipped: your gradient with respect to the image would be correct for the
-      kernel flipped along both axes. Flip the kernel only if your code correlates it
-      with the padded d
+      kernel flipped along both axes. Flip the kernel only if your code correlates the
+      padded d with the kernel
     overwritten: your code overwrites the gradient with respect to the image where
       windows overlap. Add the contributions of all windows that contain a pixel instead
     averaged: your code averages the contributions to a pixel that lies in several

@@ -32,7 +32,7 @@ def _(sigma, half):
       of the kernel together should sum to 1, so divide by the sum of the whole kernel
     added: your code adds the Gaussians along x and along y. Multiply these Gaussians
       instead, because the Gaussian in the plane is their product
-    square-of-the-sum: your code uses (x + y)^2 as the squared distance from the middle.
+    square-of-the-sum: your code uses (x + y)^2 as the squared distance from the centre.
       Use x^2 + y^2 instead
     one-short: your code uses coordinates from -half to half - 1. Use coordinates from
       -half to half instead, so that the kernel has 2 * half + 1 rows and columns

@@ -41,14 +41,14 @@ def _(centres, radii, xs, ys):
       covers. At the horizontal distance d from the centre, the height is sqrt(r^2 -
       d^2)
     cone: your code uses r - d as the height, where d is the horizontal distance from
-      the centre. In a sphere, r is the hypotenuse of a right triangle with d and the
-      height as legs
+      the centre. In a sphere, r is the hypotenuse of a right triangle whose legs are d
+      and the height
     last-wins: your code replaces the height of an earlier sphere even where the later
       sphere is lower. A ray from above stops at the highest sphere, so use the largest
       height
     lowest: your code returns the smallest of the spheres' heights at each pixel. A ray
       from above stops at the highest sphere, so use the largest height
-    first-hit: your code returns the height of the first sphere in the list that a ray
+    first-hit: your code returns the height of the first sphere in the list that the ray
       hits. A ray from above stops at the highest sphere, so compare the heights of all
       spheres
     nearest-centre: your code considers only the sphere whose centre is nearest to the

@@ -21,8 +21,8 @@ row = Row(
             "overflows",
             "Your function is correct for small entries. For large entries, exp "
             "overflows or all weights of a map are 0, so your result is NaN. Subtract "
-            "each map's own largest entry before you divide by the temperature. This "
-            "subtraction does not change the weights.",
+            "the largest entry of each map from that map before you divide by the "
+            "temperature. This subtraction does not change the weights.",
             large_maps,
         ),
         HeldOut(

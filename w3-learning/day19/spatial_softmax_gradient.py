@@ -22,8 +22,8 @@ row = Row(
             "overflows",
             "Your function is correct for small entries. For large entries, exp "
             "overflows or all weights of a map are 0, so your result is NaN. Subtract "
-            "each map's own largest entry before you divide by the temperature, as in "
-            "task 19.5.",
+            "the largest entry of each map from that map before you divide by the "
+            "temperature, as in task 19.5.",
             lambda rng: with_d(rng, large_maps(rng)),
         ),
         HeldOut(
@@ -52,14 +52,14 @@ row.cases(
 @row.wrongs
 def _(maps, xs, ys, temperature, d):
     """mean-not-taken-off: your code does not subtract the expected value of d_x * x +
-      d_y * y, where (d_x, d_y) is the map's row of d. Subtract this value, because a
-      larger map entry reduces all other weights
+      d_y * y, where (d_x, d_y) is the map's row of d. Subtract this value, because
+      raising one entry of a map reduces the weights of all other entries
     temperature-forgotten: your code does not divide the gradient by the temperature.
       The maps are divided by the temperature before the softmax, so the chain rule
       gives the factor 1 / temperature
     p-1-minus-p: your code uses only the factor p * (1 - p), the derivative of a weight
       p with respect to its own softmax input. Each input also changes all other
-      weights, so include their derivatives
+      weights, so include the derivatives of these weights
     plain-mean: your code subtracts the mean of d_x * x + d_y * y with equal weights,
       where (d_x, d_y) is the map's row of d. Subtract the expected value instead, which
       is the mean with the softmax weights
@@ -73,7 +73,8 @@ def _(maps, xs, ys, temperature, d):
       expected value of d_x * x + d_y * y instead, where (d_x, d_y) is the map's row of
       d
     maps-together: your code subtracts the sum of the expected values of all maps. The
-      weights of a map depend only on this map, so subtract only its own expected value
+      weights of each map depend only on that map, so subtract only that map's expected
+      value
     """
     e = np.exp((maps - maps.max(axis=(1, 2), keepdims=True)) / temperature)
     p = e / e.sum(axis=(1, 2), keepdims=True)

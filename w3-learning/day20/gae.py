@@ -85,18 +85,18 @@ def backwards(delta, factor):
 @row.wrongs
 def _(reward, value, next_value, terminated, ended, gamma, lam):
     """cut-off-is-terminated: your code replaces `next_value` by 0 at the end of each
-      episode. Keep `next_value` where an episode was cut off, because this episode
-      would have continued
+      episode. Keep `next_value` where an episode was cut off, because the episode would
+      have continued
     runs-through-ends: your code continues the sum into the row after an end, which
       belongs to another episode. Omit the advantage of the next row where `ended` is
       True
-    runs-through-cut-offs: your code stops the sum at true ends only. Stop the sum
-      wherever `ended` is True, because the row after a cut-off also belongs to another
-      episode
+    runs-through-cut-offs: your code stops the sum only where `terminated` is True. Stop
+      the sum wherever `ended` is True, because the row after a cut-off also belongs to
+      another episode
     end-one-late: your code uses the flag `ended` of the next row. Omit the advantage of
       row t + 1 where `ended` is True in row t
     never-terminated: your code uses `next_value` even where `terminated` is True. Use 0
-      instead, because the state after such a step is worth 0
+      instead, because the value of a terminal state is 0
     next-rows-value: your code uses the value of the next row instead of `next_value`.
       Use `next_value`, because the row after an end belongs to another episode
     lambda-forgotten: your code omits lam, so the result is the advantage for lam = 1.
@@ -104,12 +104,13 @@ def _(reward, value, next_value, terminated, ended, gamma, lam):
     gamma-not-in-the-sum: your code multiplies the advantage of the next row by lam
       only. Multiply this advantage by gamma * lam instead
     stopped-for-all: your code stops the sums of all columns when an episode ends in one
-      column. Apply the flag of each column only to this column
+      column. Apply the flag of each column only to that column
     error-left-out: your code sets the temporal-difference error to 0 in the last step
       of an episode. Keep this error, because the last step also has a reward and a
       value
     reward-at-the-end: your code uses the reward as the temporal-difference error of a
-      step that terminates. Subtract the value of the state before this step as well
+      step that terminates. Subtract the value of the state before this step from the
+      reward
     weights-below-1: your code weights the n-step returns with (1 - lam) * lam^k up to
       the end of the episode. These weights do not sum to 1, so give the remaining
       weight to the last n-step return
@@ -118,7 +119,8 @@ def _(reward, value, next_value, terminated, ended, gamma, lam):
     normalised: your code normalises the advantages. Omit this normalisation, because an
       advantage plus its value is the target of the value function
     value-one-early: your code subtracts the value of the previous row. Subtract the
-      value of the state before this step instead, which is in the same row
+      value in the same row instead, because that value belongs to the state before this
+      step
     one-step-only: your code omits the temporal-difference errors of the later steps.
       Add gamma * lam times the advantage of the next row
     targets-returned: your function returns the advantage plus the value, which is the

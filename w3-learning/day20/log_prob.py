@@ -47,8 +47,8 @@ row.cases(
 
 @row.wrongs
 def _(action, mean, log_std):
-    """determinant-forgotten: your code omits the term -log_std of each entry. A wider
-      Gaussian has a lower density, because the integral of the density is 1
+    """determinant-forgotten: your code omits the term `-log_std` for each entry.
+      Include this term, because the density of a Gaussian contains the factor 1 / std
     log-std-as-std: your code uses `log_std` as the standard deviation. Use exp(log_std)
       instead
     half-forgotten: your code omits the factor 1/2 in the exponent. The exponent of a
@@ -62,8 +62,8 @@ def _(action, mean, log_std):
       for each of the m entries of an action
     densities-summed: your code sums the densities of the entries before it takes the
       logarithm. Multiply these densities instead, because the entries are independent
-    variance: your code divides action - mean by the variance before squaring. Divide
-      action - mean by the standard deviation instead, and then square
+    variance: your code divides `action - mean` by the variance before squaring. Divide
+      this difference by the standard deviation instead, and then square
     """
     std = np.exp(log_std)
     z = (action - mean) / std

@@ -35,16 +35,16 @@ def _(action, mean, log_std):
       Multiply this gradient by the standard deviation to obtain the gradient with
       respect to `log_std`
     determinant-forgotten: your gradient with respect to `log_std` is z^2. Subtract 1,
-      because the log-probability contains the term -log_std, whose derivative is -1
+      because the log-probability contains the term `-log_std`, whose derivative is -1
     of-the-density: your function returns the gradient of the density. Divide this
       gradient by the density to obtain the gradient of the logarithm
     of-the-density 2: your code multiplies both gradients by the density of the action.
       Omit this factor, because the result is the gradient of the log-probability and
       not of the density
     averaged: your code divides both gradients by the number of actions. Omit this
-      division, because each row is the gradient of its own action
+      division, because each row should be the gradient for a single action
     half: your gradient with respect to `log_std` contains z^2 / 2. Use z^2 instead,
-      because the derivative of -z^2 / 2 with respect to log_std is z^2
+      because the derivative of `-z^2 / 2` with respect to `log_std` is z^2
     """
     std = np.exp(log_std)
     z = (action - mean) / std

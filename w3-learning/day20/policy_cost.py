@@ -46,15 +46,15 @@ def _(K, std, A, B, Q, R, S, T):
       tr(R) in each of the T steps
     transposed: your code updates X = E[x x^T] to M^T X M, where M = A - B K. The mean
       of the next state is M x, so use M X M^T instead
-    noise-shared: your code uses the same noise for all inputs in E[x x^T]. Add std^2 B
-      B^T to E[x x^T] instead, because the entries of z are independent
+    noise-shared: in E[x x^T], your code uses the same noise for all inputs. Add std^2 B
+      B^T instead, because the entries of z are independent
     last-state-added: your code adds the cost x^T Q x of the state after the last step.
       Add only the costs of the T states before the steps
     traces-multiplied: your code multiplies the trace of Q + K^T R K by the trace of E[x
       x^T]. Use the trace of the matrix product instead
     P-one-late: your code computes the cost of the noise with the cost-to-go matrix of
       the state before the step. Use the matrix of the state after the step, because the
-      noise of a step moves this state
+      noise in a step changes only that state
     std-not-squared: your code uses std instead of the variance std^2. Use std^2 B B^T
       in E[x x^T] and std^2 tr(R) in the cost of each step
     """

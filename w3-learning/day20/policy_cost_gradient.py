@@ -58,8 +58,8 @@ def _(K, std, A, B, Q, R, S, T):
       in each step, as in `policy_cost`
     start-only: your code uses S as E[x x^T] in every step. Compute E[x x^T] for each
       step instead, because this matrix is S only at the start
-    noise-shared: your code uses the same noise for all inputs in E[x x^T]. Add std^2 B
-      B^T to E[x x^T] instead, because the entries of z are independent
+    noise-shared: in E[x x^T], your code uses the same noise for all inputs. Add std^2 B
+      B^T instead, because the entries of z are independent
     X-one-late: your code uses E[x x^T] after each step. Use E[x x^T] before the step
       instead, because the input -K x contains the state x before the step
     orders-mixed: your code pairs the first E[x x^T] with the last cost-to-go matrix P.

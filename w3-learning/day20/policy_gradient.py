@@ -42,9 +42,8 @@ def _(score, advantage):
     means-multiplied: your code averages the scores and the advantages over the episodes
       before the multiplication. Multiply each score by its own advantage first, and
       then take the mean
-    summed-to-go: your code adds the later advantages to the advantage of each step. Use
-      the advantages without this sum, because an advantage already contains the later
-      rewards
+    summed-to-go: your code adds the later advantages to the advantage of each step.
+      Omit this addition, because an advantage already contains the later rewards
     pairs-mixed: your code pairs the scores with the advantages of other steps or
       episodes. Both arrays have the steps on the first axis and the episodes on the
       second axis

@@ -107,7 +107,7 @@ def _(logp, old_logp, advantage, clip):
       direction is still corrected
     gradient-through-the-clip: your loss is correct, but your gradient ignores the
       clipping. Set the gradient to 0 where the clipped term is smaller, because the
-      loss does not depend on logp at these entries
+      loss does not depend on logp for these entries
     gradient-clipped: your gradient is 0 for all ratios outside the range from 1 - clip
       to 1 + clip. Set the gradient to 0 only where the clipped term is smaller than the
       unclipped term
@@ -124,12 +124,12 @@ def _(logp, old_logp, advantage, clip):
       density
     clip-above-only: your code clips the ratio only at 1 + clip. Clip the ratio at 1 -
       clip as well, because an update with a negative advantage lowers the ratio
-    minimum-of-ratios: your code takes the minimum of both ratios before it multiplies
-      by the advantage. Multiply both ratios by the advantage first, because a negative
-      advantage reverses their order
-    minimum-of-ratios 2: your loss contains the minimum of both ratios, multiplied by
-      the advantage. Multiply both ratios by the advantage first, because a negative
-      advantage reverses their order
+    minimum-of-ratios: your code takes the minimum of the clipped and the unclipped
+      ratio before it multiplies by the advantage. Multiply both ratios by the advantage
+      first, because a negative advantage reverses their order
+    minimum-of-ratios 2: your loss contains the product of the advantage and the minimum
+      of the clipped and the unclipped ratio. Multiply both ratios by the advantage
+      first, because a negative advantage reverses their order
     minimum-for-a-negative-advantage: your code uses the minimum of the ratio and 1 -
       clip for a negative advantage. Use the maximum instead, because the larger ratio
       has the smaller product with a negative advantage

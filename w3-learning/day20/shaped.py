@@ -24,7 +24,7 @@ row.cases(
 def _(reward, potential, gamma):
     """gamma-forgotten: your code adds the difference of the potentials without gamma.
       Multiply the potential after the step by gamma, so that the discounted return
-      depends only on the potentials at both ends
+      depends only on the first and the last potential
     sign: your code subtracts the shaping term. Add this term instead, so that moving to
       a higher potential increases the reward
     gamma-on-the-wrong-one: your code multiplies the potential before the step by gamma.

@@ -66,8 +66,8 @@ def _(score, limit, ticks):
     """not-in-a-row: your code counts all scores above the limit. Set the counter to 0
       at each score that is not above the limit, because only consecutive scores count
     first-above: your function returns the first tick with a score above the limit. Wait
-      for `ticks` consecutive scores above the limit, so that a single noisy score
-      causes no alarm
+      for `ticks` consecutive scores above the limit, so that a single noisy score does
+      not trigger the alarm
     start-of-the-row: your function returns the first of the `ticks` consecutive ticks
       above the limit. Return the last of these ticks, because the alarm is raised only
       then
@@ -82,7 +82,7 @@ def _(score, limit, ticks):
     end-if-none: your function returns the number of ticks if there is no alarm. Return
       -1 instead
     zero-if-none: your function returns 0 if there is no alarm. Return -1 instead,
-      because 0 is the first tick
+      because 0 is the index of the first tick
     end-of-the-row: your function returns the last tick before the score falls to the
       limit or below. Return the first tick at which `ticks` consecutive scores have
       been above the limit

@@ -27,12 +27,12 @@ row.cases(
 
 @row.wrongs(hidden={"squared-speed": "its limit is 1, which is its own square"})
 def _(v, limit):
-    """per-axis: your code clamps each entry separately, which changes the direction.
-      Multiply all entries by the same factor instead
-    always-full: your code sets the speed to the limit even for a slower velocity.
-      Return a velocity unchanged if its norm is at most the limit
-    always-full 2: your code sets the speed to the limit even for a slower velocity.
-      Return a velocity unchanged if its norm is at most the limit
+    """per-axis: your code clamps each entry separately, which changes the direction of
+      the velocity. Multiply all entries by the same factor instead
+    always-full: your code sets the speed to the limit even if the speed is below the
+      limit. Return a velocity unchanged if its norm is at most the limit
+    always-full 2: your code sets the speed to the limit even if the speed is below the
+      limit. Return a velocity unchanged if its norm is at most the limit
     stops: your function returns 0 for a velocity that is too fast. Return a velocity
       with the same direction and the norm `limit` instead
     largest: your code compares the largest absolute entry with the limit. Compare the
@@ -41,7 +41,7 @@ def _(v, limit):
       Compare the Euclidean norm of the velocity with the limit instead
     not-reduced: your code multiplies a velocity that is too fast by the limit. Multiply
       the velocity by limit / speed instead, so that its norm is the limit
-    at-rest: your code divides the velocity 0 by its norm. Divide by the norm only if
+    at-rest: your code divides a zero velocity by its norm. Divide by the norm only if
       the norm is above the limit
     squared-speed: your code compares the squared norm with the limit. Compare the norm
       with the limit instead, because the limit is a speed

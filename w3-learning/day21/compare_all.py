@@ -93,14 +93,14 @@ def unpaired(a, b):
 @row.wrongs(hidden=dict.fromkeys(("mask-sorted", "sorted"), SORTED))
 def _(success):
     """uncorrected: your code compares each p-value with 0.05. Use Holm's limits
-      instead, because a false difference is more probable with several comparisons
+      instead, because several comparisons make a false difference more probable
     bonferroni: your code compares each p-value with 0.05 / (k - 1). Use this limit only
-      for the smallest p-value, 0.05 / (k - 2) for the next p-value, and so on
+      for the smallest p-value. Use 0.05 / (k - 2) for the next p-value, and so on
     bonferroni 2: your code compares each p-value with 0.05 / k. Use the limit 0.05 / (k
       - 1) for the smallest p-value, 0.05 / (k - 2) for the next p-value, and so on
     false-discovery: your code uses the method of Benjamini and Hochberg, which limits
-      the fraction of false differences. Use Holm's method instead, which limits the
-      probability of any false difference
+      the expected fraction of false differences. Use Holm's method instead, which
+      limits the probability of any false difference
     smallest-only: your code compares only the smallest p-value with its limit. Continue
       with the next p-value, and stop at the first p-value that is above its limit
     by-place: your code assigns Holm's limits in the order of the rows. Sort the
@@ -114,8 +114,9 @@ def _(success):
     against-the-best: your code compares the policy that has the most successes with the
       others. Compare the first policy with the others instead, because it was chosen
       before the test
-    unpaired: your code compares the success rates as if the policies had different
-      starts. Use the sign test instead, because all policies have the same starts
+    unpaired: your code compares the success rates as if the policies had been tested on
+      different starts. Use the sign test instead, because all policies are tested on
+      the same starts
     against-the-last: your code compares the last policy with the others. Compare the
       first policy with each of the others instead
     does-not-stop: your code continues after the first p-value that is above its limit.

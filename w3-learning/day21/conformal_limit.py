@@ -51,9 +51,11 @@ def _(rng):
 )
 def _(scores, share):
     """quantile: your function interpolates a quantile of the n scores, as np.quantile
-      does. Return a score or infinity. How many ranks can a new score have among the n?
+      does. Return a score or infinity. How many ranks can a new score have among the n
+      scores?
     quantile 2: your function rounds a quantile of the n scores up to a score. This
-      quantile ignores the new score. How many ranks can a new score have among them?
+      quantile ignores the new score. How many ranks can a new score have among the n
+      scores?
     clamped: your function returns the largest score if there are too few scores. Return
       infinity instead, because no finite limit has the guarantee
     clamped 2: your function returns the largest score if there are too few scores.
@@ -83,10 +85,10 @@ def _(scores, share):
       infinity instead, which no score exceeds
     infinite-too-soon: your function returns infinity even if the rank of the limit is
       n. Return the largest score in this case, and infinity only for a rank above n
-    without-ties: your code removes equal scores. Keep all n scores, because each score
-      has its own rank
-    gaussian: your code computes the limit as for a normal distribution. Use the rank of
-      the scores instead, because their distribution is unknown
+    without-ties: your code removes duplicate scores. Keep all n scores, because each
+      score has its own rank
+    gaussian: your code computes the limit as for a normal distribution. Use the ranks
+      of the scores instead, because the distribution of the scores is unknown
     """
     n = len(scores)
     ranked = np.append(np.sort(scores), np.inf)

@@ -83,7 +83,7 @@ def _(p, v, low, high, dt):
     jumps-back: your code moves the hand from outside the box to the wall in one step.
       Keep an entry of the velocity that leads back, and use 0 for an entry that leads
       further out
-    dt-forgotten: your code uses the distances to the walls as bounds of the velocity.
+    dt-forgotten: your code uses the distances to the walls as bounds on the velocity.
       Divide each distance by `dt`
     only-if-outside: your code limits the velocity only if the position is already
       outside. Limit the velocity so that the next position, p + dt * v, does not leave
@@ -95,13 +95,13 @@ def _(p, v, low, high, dt):
       outside along this axis. Keep an entry that leads back to the box
     position: your function returns the next position. Return the velocity instead
     position 2: your function returns the next position. Return the velocity instead
-    no-position: your code omits the position from the bounds of the velocity. Subtract
+    no-position: your code omits the position from the bounds on the velocity. Subtract
       the position from each wall, because the bounds depend on the distances to the
       walls
     no-position 2: your code omits the position from the bounds of the velocity.
       Subtract the position from each wall, because the bounds depend on the distances
       to the walls
-    fixed-duration: your code uses a fixed duration of 0.1 s. Use the argument `dt`
+    fixed-duration: your code uses a fixed time step of 0.1 s. Use the argument `dt`
       instead
     through: your code does not limit an entry that leads back from outside. Limit this
       entry at the opposite wall, because otherwise the hand can pass through the whole
@@ -116,9 +116,10 @@ def _(p, v, low, high, dt):
       position can have more than two entries
     symmetric: your code uses `-high` as the lower wall. Use `low` instead, because the
       box need not be symmetric
-    min-and-max: your code swaps the minimum and the maximum with 0. The lower bound of
-      the velocity should be at most 0, and the upper bound at least 0
-    no-way-back: your code stops an entry that leads back from outside and keeps an
+    min-and-max: your code keeps the lower bound on the velocity at or above 0, and the
+      upper bound at or below 0. The lower bound should be at most 0, and the upper
+      bound at least 0
+    no-way-back: your code sets an entry that leads back from outside to 0, and keeps an
       entry that leads further out. Swap these two cases
     """
     after = p + dt * v

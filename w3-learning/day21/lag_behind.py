@@ -27,8 +27,9 @@ def _(v, stiffness, inertia):
       damping. Use D = 2 * sqrt(K * Lambda) instead
     force: your function returns the force of the damper. Divide this force by the
       stiffness to obtain the extension of the spring
-    feedforward: your function returns 0, which is the lag with feedforward velocity.
-      Without feedforward velocity, the spring balances the force of the damper
+    feedforward: your function returns 0, which is the lag with feedforward velocity. In
+      this task, the damper acts on the absolute velocity of the hand, so the spring
+      balances the force of the damper
     energy: your code equates the kinetic energy of the hand with the energy of the
       spring. Equate the forces of the spring and the damper instead, because nothing
       accelerates in the steady state

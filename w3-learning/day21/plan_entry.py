@@ -49,22 +49,22 @@ def _(rng):
 @row.wrongs
 def _(plan, drawn, now):
     """from-the-start: your function always returns the first row, which is the action
-      for the tick `drawn`. Return row now - drawn instead
+      for the tick `drawn`. Return row `now - drawn` instead
     wraps: your code starts again at the first row if the plan has run out. Return the
       last row instead
-    one-late: your code treats the first row as the action for the tick drawn + 1.
-      Return row now - drawn, because the first row is the action for the tick `drawn`
+    one-late: your code treats the first row as the action for the tick `drawn + 1`.
+      Return row `now - drawn`, because the first row is the action for the tick `drawn`
     stops: your function returns 0 if the plan has run out. Return the last row instead
     first-at-the-end: your function returns the first row if the plan has run out.
       Return the last row instead
     column: your function returns a column of the plan. Return a row instead, because
       each row is the action of one tick
-    all-that-is-left: your function returns all rows from the present tick on. Return
-      only the row for the present tick
-    mean-so-far: your function returns the mean of the rows up to the present tick.
-      Return only row now - drawn, because each row is the action of one tick
+    all-that-is-left: your function returns all rows from the current tick on. Return
+      only the row for the current tick
+    mean-so-far: your function returns the mean of the rows up to the current tick.
+      Return only row `now - drawn`, because each row is the action of one tick
     last-always: your function returns the last row for every plan that is late. Return
-      row now - drawn instead, and the last row only if the plan has run out
+      row `now - drawn` instead, and the last row only if the plan has run out
     """
     i, K = now - drawn, len(plan)
     return {

@@ -171,6 +171,7 @@ def from_the_start(obs, actions, dt, steps, reach):
 def _(obs, actions, dt, steps, reach):
     """one-part: your code moves the pusher by a whole action before it moves the puck.
       Divide each action into `steps` parts, because the direction of the push changes
+      as the puck moves
     puck-moves-along: your code moves a puck in contact by the same displacement as the
       pusher. Move the puck along the line of centres instead, because the contact has
       no friction
@@ -200,7 +201,7 @@ def _(obs, actions, dt, steps, reach):
     component: your code moves the puck by the component of the pusher's motion along
       the line of centres. Move the puck until the distance is `reach` instead
     each-from-the-start: your code begins each action at the initial position of the
-      pusher. Begin each action where the previous action has ended
+      pusher. Begin each action where the previous action ended
     relative: your function returns the position of the puck relative to the pusher.
       Return the position of the puck in the plane instead
     squared: your code compares the squared distance with `reach`. Compare the distance
@@ -214,7 +215,7 @@ def _(obs, actions, dt, steps, reach):
     last-contact: your code does not move the puck after the last motion of the pusher.
       Move the puck in every part, including the last part
     puck-only: your function returns the initial position of the pusher. Return the
-      position of the pusher after all actions. Your puck is correct
+      position of the pusher after all actions. The position of the puck is correct
     """
     given = obs, actions, dt, steps, reach
     other = np.roll(obs, 2), actions, dt, steps, reach

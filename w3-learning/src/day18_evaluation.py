@@ -159,7 +159,7 @@ def paired_power(win: float, lose: float, n: int, level: float) -> float:
         k = np.arange(d + 1)  # the possible numbers of wins
         few = np.cumsum(binomial_pmf(d, 0.5))  # probability of at most k wins
         p = np.minimum(1, 2 * few[np.minimum(k, d - k)])  # the p-values
-        found = binomial_pmf(d, first)[p <= level]  # the wins that are reported
+        found = binomial_pmf(d, first)[p <= level]  # probabilities of reported wins
         power += chance * np.sum(found)  # power, with d starts that differ
     return power
     # endregion 18.6

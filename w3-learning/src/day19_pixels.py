@@ -114,8 +114,8 @@ def conv2d_gradient(
     0]]) -> ([[0, 1], [3, 4]], [[1, 0, 0], [0, 2, 0], [0, 0, 0]])
     """
     # region 19.4
-    of_kernel = np.zeros(kernel.shape)  # the gradient of the kernel, so far
-    of_image = np.zeros(image.shape)  # the gradient of the image, so far
+    of_kernel = np.zeros(kernel.shape)  # gradient with respect to the kernel, so far
+    of_image = np.zeros(image.shape)  # gradient with respect to the image, so far
     rows, columns = d.shape  # numbers of windows along y and x
     for a in range(kernel.shape[0]):
         for b in range(kernel.shape[1]):
@@ -123,8 +123,8 @@ def conv2d_gradient(
                 slice(a, a + stride * (rows - 1) + 1, stride),
                 slice(b, b + stride * (columns - 1) + 1, stride),
             )
-            of_kernel[a, b] = np.sum(d * image[seen])  # gradient of one kernel entry
-            of_image[seen] += d * kernel[a, b]  # gradient of the pixels, so far
+            of_kernel[a, b] = np.sum(d * image[seen])  # derivative for one kernel entry
+            of_image[seen] += d * kernel[a, b]  # gradient for these pixels, so far
     return of_kernel, of_image  # both gradients
     # endregion 19.4
 

@@ -60,7 +60,7 @@ def log_prob(action: np.ndarray, mean: np.ndarray, log_std: np.ndarray) -> np.nd
     """
     # region 20.1
     z = (action - mean) / np.exp(log_std)  # standardised distance from the mean
-    each = -(z**2) / 2 - log_std - np.log(2 * np.pi) / 2  # logarithm of each entry
+    each = -(z**2) / 2 - log_std - np.log(2 * np.pi) / 2  # log-density of each entry
     return each.sum(axis=1)  # the logarithm of the product
     # endregion 20.1
 

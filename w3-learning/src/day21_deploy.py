@@ -51,7 +51,7 @@ def clamp_speed(v: np.ndarray, limit: float) -> np.ndarray:
     # region 21.1
     speed = np.linalg.norm(v)  # norm of the velocity
     if speed <= limit:
-        return v  # velocity that is slow enough
+        return v  # velocity within the limit
     return v * (limit / speed)  # velocity at the limit
     # endregion 21.1
 
@@ -107,7 +107,7 @@ def push_ahead(
         for _ in range(steps):
             pusher = pusher + action * dt / steps  # position of the pusher
             apart = puck - pusher  # vector from the pusher to the puck
-            distance = np.linalg.norm(apart)  # distance of both centres
+            distance = np.linalg.norm(apart)  # distance between the centres
             if distance < reach:
                 puck = pusher + apart * reach / distance  # position of the puck
     return np.concatenate([pusher, puck])  # the observation at the end
