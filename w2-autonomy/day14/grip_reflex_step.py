@@ -92,8 +92,8 @@ def _(finger_position, force, normal, mu, fraction, step):
       slips
     share-in-newtons: your code compares the margin with `fraction`. Compare the margin
       with `fraction * mu * f_n` instead, because the margin is in newtons
-    share-of-the-force: your code compares the margin with a fraction of the norm of the
-      force. Compare the margin with `fraction * mu * f_n` instead
+    share-of-the-force: your code compares the margin with `fraction` times the norm of
+      the force. Compare the margin with `fraction * mu * f_n` instead
     share-of-the-force 2: your code uses the norm of the force as f_n in `fraction * mu
       * f_n`. Use the component of the force along the normal instead
     stopped-at-0: your code clamps the finger position at 0. Clamp it at `LOW[4]`
