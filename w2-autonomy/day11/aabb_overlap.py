@@ -172,7 +172,8 @@ def _(box_a, box_b):
       Compare the intervals on each axis instead, because two boxes can overlap even if
       neither centre lies in the other box
     half-of-one: your code compares the distance between the centres with the half
-      extents of `box_a` only. Add the half extents of `box_b`
+      extents of `box_a` only. Compare this distance with the sum of the half extents of
+      both boxes
     corners-only: your code tests whether a corner of one box lies in the other box.
       Compare the intervals on each axis instead, because two boxes can overlap even if
       no corner of either box lies in the other => both
@@ -202,8 +203,8 @@ def _(box_a, box_b):
       half of the sum instead
     or-for-and: your code reports an overlap if one of the two comparisons holds on all
       axes. Both comparisons must hold on all axes
-    two-axes-enough: your code reports an overlap if the intervals overlap on two axes.
-      Two boxes overlap only if their intervals overlap on all three axes
+    two-axes-enough: your code reports an overlap if the intervals overlap on at least
+      two axes. Two boxes overlap only if their intervals overlap on all three axes
     other-axes: your code does not compare y. Two boxes overlap only if their intervals
       overlap on all three axes
     other-axes 2: your code does not compare x. Two boxes overlap only if their

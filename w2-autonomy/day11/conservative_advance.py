@@ -147,7 +147,7 @@ def _(s, distance, delta_q, radii):
     twice-a-step: your code takes twice the step that the bound allows, so the arm can
       hit the obstacle. Divide the distance by the bound itself
     multiplied: your code multiplies the distance by the bound. Divide the distance by
-      the bound, because a faster motion needs a shorter step
+      the bound instead, because a faster motion needs a shorter step
     s-forgotten: your code returns the step alone. Return s plus the step
     not-capped: your code can return a value above 1. Clamp the result at 1, because the
       motion ends at s = 1

@@ -61,7 +61,7 @@ def _(link_lengths, link_radii):
       maximum over all distal links, because a point on an earlier link can be farther
       from the joint
     own-link-only: your code uses only the joint's own link for the bound. Take the
-      maximum over the distal links too, because the joint also moves them
+      maximum over the distal links too, because the joint also moves these links
     next-only: your code uses the radius of the next link and ignores the links after
       it. Use the bound of the next joint instead
     from-the-base: your code measures the distances from the base. Measure the distances
@@ -75,7 +75,7 @@ def _(link_lengths, link_radii):
     offset-to-its-own: your code adds the link length to the radius of the joint's own
       link. Add this length only for the links after the joint's own link
     far-forgotten: your code omits `link_radii`, so the bound contains only link
-      lengths. Add the radius of each link to the distance to its origin
+      lengths. Add the radius of each link to the distance to that link's origin
     offsets-forgotten: your code omits `link_lengths`, so each bound is only a link
       radius. Add the lengths between the joint and each distal link
     all-summed: your code adds the radii of all distal links. Use the radius of only one
@@ -97,7 +97,7 @@ def _(link_lengths, link_radii):
     backwards: your code returns the bounds in reverse order. The first bound belongs to
       joint 1
     sum-from-the-base: your code sums the link lengths from the base to the joint. Sum
-      the link lengths from the joint to the distal link
+      the link lengths from the joint to each distal link instead
     far-of-its-own: your code adds the radius of the joint's own link to the sum of all
       distal link lengths. Add the radius of each link to the distance to that link, and
       then take the maximum
@@ -122,11 +122,11 @@ def _(link_lengths, link_radii):
       `link_lengths[i]` instead, the distance from link i to the next link
     far-of-the-next: your code uses the radius of the next link as the radius of the
       joint's own link. Use the radius of the joint's own link
-    own-left-out: your code omits the joint's own link. Include it, because the farthest
-      point can be on this link
+    own-left-out: your code omits the joint's own link. Include this link, because the
+      farthest point can be on the joint's own link
     own-or-tip: your code uses only the joint's own link and the last link for the
-      bound. Include all links between them, because a point on one of them can be
-      farther away
+      bound. Include all links between them, because a point on one of these links can
+      be farther from the joint
     two-behind-only: your code uses only the joint's own link and the next two links for
       the bound. Include all distal links, because the joint moves all of them
     sum-not-largest: your code adds the link radius to the maximum of the link length
@@ -144,7 +144,7 @@ def _(link_lengths, link_radii):
       the distance to that link
     last-link-forgotten: your code treats the radius of the last link as 0. Use the last
       entry of `link_radii`
-    last-link-forgotten 2: your code omits the last link. Include it, because the
+    last-link-forgotten 2: your code omits the last link. Include this link, because the
       farthest point of the arm can be on the last link
     offsets-to-the-end: your code adds all entries of `link_lengths`, including the last
       one, to the radius of the last link. Omit the last entry, because no link follows

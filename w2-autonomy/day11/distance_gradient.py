@@ -90,13 +90,13 @@ def _(J_space, p, o, link):
     one-column-too-many: your code also computes an entry for joint `link + 1`. Set this
       entry to 0, because that joint does not move the link
     from-the-link-on: your code uses the link's own joint and the joints distal to it.
-      Use the joints up to the link instead
+      Use joints 1 to `link` instead
     first-joint-left-out: your code sets the entry for joint 1 to 0. Include joint 1,
       because it moves every link
     own-joint-only: your code computes only the entry for the link's own joint. Include
-      all joints up to the link, because all of them move it
-    columns-before-dropped: your code uses the joints distal to the link. Use the joints
-      up to the link instead
+      joints 1 to `link`, because all of them move the link
+    columns-before-dropped: your code uses the joints distal to the link. Use joints 1
+      to `link` instead
     rotation-forgotten: your code uses v as the velocity of p. Add omega x p, because
       the velocity of p is v + omega x p
     rotation-only: your code uses omega x p as the velocity of p. Add v, because the
@@ -120,9 +120,9 @@ def _(J_space, p, o, link):
       because an entry is negative if the distance decreases as the joint angle
       increases
     parts-added: your code divides `p - o` by the sum of its absolute components. Divide
-      it by its norm instead
-    largest-part: your code divides `p - o` by its largest absolute component. Divide it
-      by its norm instead
+      `p - o` by its norm instead
+    largest-part: your code divides `p - o` by its largest absolute component. Divide `p
+      - o` by its norm instead
     two-directions: your code normalises p and o separately. Normalise `p - o` instead
     parts-summed: your code adds the absolute values of the velocity components. Project
       the velocity onto the unit vector along `p - o` instead

@@ -123,7 +123,7 @@ def _(qd, grad, distance, gain):
     not-divided: your code does not divide the correction by `grad @ grad`. Divide the
       correction by this value, because the norm of `grad` need not be 1
     divided-by-the-length: your code divides the correction by the norm of `grad`.
-      Divide it by `grad @ grad` instead
+      Divide the correction by `grad @ grad` instead
     pushed-in: your code subtracts the correction, so the arm moves towards the
       obstacle. Add the correction to `qd`, because the distance increases along `grad`
     all-joints-slowed: your code scales all joint velocities by one factor. Change only
@@ -158,8 +158,8 @@ def _(qd, grad, distance, gain):
     largest-joint-only: your code changes only the velocity of the joint with the
       largest absolute entry of `grad`. Change `qd` along `grad` instead, because this
       is the smallest change that satisfies the bound
-    slope-unit: your code normalises `grad` in `grad @ qd`, but not in the bound. Use
-      `grad` itself in both
+    slope-unit: your code normalises `grad`, but it does not divide the bound by the
+      norm of `grad`. Use `grad` itself instead
     only-inside: your code limits the velocity only if the distance is negative. Limit
       the velocity at every distance
     standing-still: your code divides by 0 if `grad` is 0. Return `qd` in this case
@@ -194,11 +194,11 @@ def _(qd, grad, distance, gain):
       contributes a seventh of the change in `grad @ qd`. Make the correction
       proportional to `grad`
     divided-by-the-sum: your code divides the correction by the sum of the entries of
-      `grad`. Divide it by `grad @ grad` instead
+      `grad`. Divide the correction by `grad @ grad` instead
     divided-by-the-largest: your code divides the correction by the square of the
-      largest entry of `grad`. Divide it by `grad @ grad` instead
-    divided-by-qd: your code divides the correction by `qd @ qd`. Divide it by `grad @
-      grad` instead
+      largest absolute entry of `grad`. Divide the correction by `grad @ grad` instead
+    divided-by-qd: your code divides the correction by `qd @ qd`. Divide the correction
+      by `grad @ grad` instead
     those-that-come-near: your code changes only the velocities of the joints whose
       motion reduces the distance. Change `qd` along the whole of `grad` instead,
       because this is the smallest change that satisfies the bound
