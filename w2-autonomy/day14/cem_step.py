@@ -72,7 +72,7 @@ def _(mean, std, noise, scores, elite):
     n-minus-one: your code divides by `elite - 1` in the standard deviation. Divide by
       `elite` instead
     about-the-old-mean: your code takes the standard deviation about the old mean. Take
-      it about the mean of the elite instead
+      the standard deviation about the mean of the elite instead
     one-spread-for-all: your code returns the same standard deviation for all
       parameters. Compute one for each parameter, with `axis=0`
     best-left-out: your code omits the best sample and begins the elite with the

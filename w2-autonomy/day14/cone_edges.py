@@ -42,15 +42,15 @@ def edges(n, mu, k, axis=None, *, a=None, t=None):
 
 @row.wrongs
 def _(normal, mu, k):
-    """axis-x: your code always uses n x (1, 0, 0) for `a`. Use the coordinate axis
-      along which n has the smallest absolute component, and the first such axis if
-      there are several
-    axis-z: your code always uses n x (0, 0, 1) for `a`. Use the coordinate axis along
-      which n has the smallest absolute component, and the first such axis if there are
-      several
-    axis-z 2: your code always uses n x (0, 0, 1) for `a`. Use the coordinate axis along
-      which n has the smallest absolute component, and the first such axis if there are
-      several
+    """axis-x: your code always uses n x (1, 0, 0) for `a`. Instead of (1, 0, 0), use
+      the coordinate axis along which n has the smallest absolute component, and the
+      first such axis if there are several
+    axis-z: your code always uses n x (0, 0, 1) for `a`. Instead of (0, 0, 1), use the
+      coordinate axis along which n has the smallest absolute component, and the first
+      such axis if there are several
+    axis-z 2: your code always uses n x (0, 0, 1) for `a`. Instead of (0, 0, 1), use the
+      coordinate axis along which n has the smallest absolute component, and the first
+      such axis if there are several
     last-of-equals: your code uses the last coordinate axis if several components of n
       have the same smallest absolute value. Use the first of these axes instead
     largest-axis: your code uses the coordinate axis along which n has the largest

@@ -28,8 +28,8 @@ def _(first, second):
       instead
     n-minus-one 2: your code divides by `sqrt(n - 1)` in the standard error. Divide by
       `sqrt(n)` instead
-    root-of-the-mean-square: your code takes the standard deviation about 0. Take it
-      about the mean difference instead
+    root-of-the-mean-square: your code takes the standard deviation about 0. Take the
+      standard deviation about the mean difference instead
     interval: your code returns 1.96 standard errors as the second result. Return one
       standard error instead
     which-differ: your first result is the fraction of cubes on which the outcomes of
