@@ -132,65 +132,79 @@ def _(box_a, box_b):
     """any-for-all: your code reports an overlap if the intervals overlap on at least
       one axis. Two boxes overlap only if their intervals overlap on all three axes
     one-direction: your code makes only one of the two comparisons, so it reports an
-      overlap if `box_b` lies above `box_a`. Compare both ends of each interval
+      overlap even if `box_b` lies entirely on the positive side of `box_a`. Make both
+      comparisons on each axis
     one-direction 2: your code makes only one of the two comparisons, so it reports an
-      overlap if `box_b` lies below `box_a`. Compare both ends of each interval
+      overlap even if `box_b` lies entirely on the negative side of `box_a`. Make both
+      comparisons on each axis
     touching-left-out: your code reports boxes that only touch as separate. Boxes that
-      only touch overlap, so use `<=` instead of `<`
+      touch also overlap, so use `<=` instead of `<`
     touching-left-out 2: your code reports boxes as separate if an upper face of `box_a`
-      touches a lower face of `box_b`. Boxes that only touch overlap, so use `<=` in
+      touches a lower face of `box_b`. Boxes that touch also overlap, so use `<=` in
       both comparisons
     touching-left-out 3: your code reports boxes as separate if a lower face of `box_a`
-      touches an upper face of `box_b`. Boxes that only touch overlap, so use `<=` in
+      touches an upper face of `box_b`. Boxes that touch also overlap, so use `<=` in
       both comparisons
     negated: your code negates the result. Return True if the boxes overlap
     first-axis-only: your code compares only x. Two boxes overlap only if their
       intervals overlap on all three axes
     two-axes-only: your code does not compare z. Two boxes overlap only if their
       intervals overlap on all three axes
-    contained: your code requires that one box contains the other. Compare the intervals
-      on each axis instead, because boxes can also overlap partially
-    contained 2: your code requires that `box_a` contains `box_b`. Compare the intervals
-      on each axis instead, because boxes can also overlap partially
-    contained 3: your code requires that `box_b` contains `box_a`. Compare the intervals
-      on each axis instead, because boxes can also overlap partially
-    a-corner-inside: your code requires that the lower or the upper corner of `box_b`
-      lies in `box_a`. Compare the intervals on each axis, because both corners can lie
-      outside
-    a-corner-inside 2: your code requires that the lower corner of `box_b` lies in
-      `box_a`. Compare the intervals on each axis, because this corner can lie outside
-    a-corner-inside 3: your code requires that the upper corner of `box_b` lies in
-      `box_a`. Compare the intervals on each axis, because this corner can lie outside
-    middles-inside: your code requires that the centre of `box_a` lies in `box_b`.
-      Compare the intervals on each axis, because this centre can lie outside
-    middles-inside 2: your code requires that the centre of one box lies in the other
-      box. Compare the intervals on each axis, because both centres can lie outside
+    contained: your code requires one box to contain the other. Compare the intervals on
+      each axis instead, because boxes can also overlap partially
+    contained 2: your code requires `box_a` to contain `box_b`. Compare the intervals on
+      each axis instead, because boxes can also overlap partially
+    contained 3: your code requires `box_b` to contain `box_a`. Compare the intervals on
+      each axis instead, because boxes can also overlap partially
+    a-corner-inside: your code requires the lower or the upper corner of `box_b` to lie
+      in `box_a`. Compare the intervals on each axis instead, because two boxes can
+      overlap even if both of these corners lie outside `box_a`
+    a-corner-inside 2: your code requires the lower corner of `box_b` to lie in `box_a`.
+      Compare the intervals on each axis instead, because two boxes can overlap even if
+      this corner lies outside `box_a`
+    a-corner-inside 3: your code requires the upper corner of `box_b` to lie in `box_a`.
+      Compare the intervals on each axis instead, because two boxes can overlap even if
+      this corner lies outside `box_a`
+    middles-inside: your code requires the centre of `box_a` to lie in `box_b`. Compare
+      the intervals on each axis instead, because two boxes can overlap even if this
+      centre lies outside `box_b`
+    middles-inside 2: your code requires the centre of one box to lie in the other box.
+      Compare the intervals on each axis instead, because two boxes can overlap even if
+      neither centre lies in the other box
     half-of-one: your code compares the distance between the centres with the half
-      extents of `box_a` only. Add the half extents of `box_b`
+      extents of `box_a` only. Compare this distance with the sum of the half extents of
+      both boxes
     corners-only: your code tests whether a corner of one box lies in the other box.
-      Compare the intervals on each axis, because two boxes can cross without such a
-      corner => both
+      Compare the intervals on each axis instead, because two boxes can overlap even if
+      no corner of either box lies in the other => both
     corners-only 2: your code tests whether a corner of `box_b` lies in `box_a`. Compare
-      the intervals on each axis, because two boxes can overlap without such a corner
+      the intervals on each axis instead, because two boxes can overlap even if no
+      corner of `box_b` lies in `box_a`
     corners-only 3: your code tests only the lower and the upper corner of each box.
-      Compare the intervals on each axis, because all these corners can lie outside the
-      other box
+      Compare the intervals on each axis instead, because two boxes can overlap even if
+      none of these corners lies in the other box
     corners-only 4: your code tests only the lower corner of each box. Compare the
-      intervals on each axis, because both corners can lie outside the other box
-    balls: your code compares the norm of the vector between the centres, as for
-      spheres. Compare the boxes on each axis separately
-    balls 2: your code compares the norm of the vector between the centres, as for
-      spheres. Compare the boxes on each axis separately
-    balls 3: your code compares the norm of the vector between the centres, as for
-      spheres. Compare the boxes on each axis separately
-    sides-not-halved: your code compares the distance between the centres with the sum
-      of the sides. Compare it with half of this sum instead
-    sides-in-quarters: your code compares the distance between the centres with a
-      quarter of the sum of the sides. Compare it with half of this sum instead
+      intervals on each axis instead, because two boxes can overlap even if neither
+      lower corner lies in the other box
+    balls: your code treats the boxes as spheres, because it compares only the distance
+      between the centres with a sum of radii. Compare the intervals on each axis
+      instead
+    balls 2: your code treats the boxes as spheres, because it compares only the
+      distance between the centres with a sum of radii. Compare the intervals on each
+      axis instead
+    balls 3: your code treats the boxes as spheres, because it compares only the
+      distance between the centres with a sum of radii. Compare the intervals on each
+      axis instead
+    sides-not-halved: your code compares the distance between the centres along each
+      axis with the sum of the side lengths. Compare this distance with half of the sum
+      instead
+    sides-in-quarters: your code compares the distance between the centres along each
+      axis with a quarter of the sum of the side lengths. Compare this distance with
+      half of the sum instead
     or-for-and: your code reports an overlap if one of the two comparisons holds on all
       axes. Both comparisons must hold on all axes
-    two-axes-enough: your code reports an overlap if the intervals overlap on two axes.
-      Two boxes overlap only if their intervals overlap on all three axes
+    two-axes-enough: your code reports an overlap if the intervals overlap on at least
+      two axes. Two boxes overlap only if their intervals overlap on all three axes
     other-axes: your code does not compare y. Two boxes overlap only if their intervals
       overlap on all three axes
     other-axes 2: your code does not compare x. Two boxes overlap only if their
@@ -204,8 +218,8 @@ def _(box_a, box_b):
     volume 2: your code tests whether the product of the three overlaps is at least 0.
       Test each overlap separately, because two negative overlaps have a positive
       product
-    sum-of-overlaps: your code adds the overlaps of the three axes. Test each overlap
-      separately, because each overlap must be at least 0
+    sum-of-overlaps: your code tests only the sum of the overlaps along the three axes.
+      Test each overlap separately, because each overlap must be at least 0
     nearly-touching: your code reports an overlap for boxes with a small gap. Omit the
       tolerance, because boxes with a gap do not overlap
     always: your code always returns True. Compare the intervals on all three axes

@@ -70,11 +70,12 @@ def _(p, half_extents):
       the nearest face instead
     inside-positive: inside the box, your code returns a positive distance. The signed
       distance should be negative there
-    sign: your code negates the signed distance. It should be positive outside the box
+    sign: your code negates the signed distance. The signed distance should be positive
+      outside the box
     largest-outside: outside the box, your code returns only the largest entry of
       `abs(p) - half_extents`. Return the norm of the positive entries instead
     sum-outside: outside the box, your code adds the positive entries of `abs(p) -
-      half_extents`. Take their norm instead, because they are distances along
+      half_extents`. Take their norm instead, because these entries are distances along
       perpendicular axes
     inside-added-outside: outside the box, your code includes the negative entries of
       `abs(p) - half_extents` in the norm. Clamp these entries at 0 first
@@ -105,20 +106,20 @@ def _(p, half_extents):
     abs-forgotten: your code omits the absolute value of p. Use `abs(p) - half_extents`,
       because otherwise the result is wrong for points with a negative coordinate
     abs-forgotten-zero-inside: your code omits the absolute value of p, and it returns 0
-      inside the box. Use `abs(p) - half_extents`, and return minus the distance to the
-      nearest face inside the box => both
+      inside the box. Use `abs(p) - half_extents`. Inside the box, return minus the
+      distance to the nearest face => both
     not-rooted: outside the box, your code returns the squared distance. Take the square
       root
     nearest-corner: your code returns the distance to the nearest corner. Use `abs(p) -
       half_extents` instead, because a face or an edge can be nearer
     largest-half: your code uses the largest half extent on every axis. Use the half
       extent of each axis instead
-    half-backwards: your code uses `half_extents` in reverse order. Its first entry
+    half-backwards: your code uses `half_extents` in reverse order. The first entry
       belongs to x, the second to y and the third to z
     in-the-plane: your code omits the z coordinate. Use all three coordinates
     smallest-added: your code adds the smallest entry of `abs(p) - half_extents`, even
-      if this entry is positive. Add the largest entry, and only if this entry is
-      negative
+      if this entry is positive. Add the largest entry instead, but only if the largest
+      entry is negative
     first-axis-added: your code uses only the x entry of `abs(p) - half_extents` in
       `min(..., 0)`. Use the largest of the three entries
     largest-with-max: your code uses `max(..., 0)` for the largest entry of `abs(p) -
@@ -152,11 +153,12 @@ def _(p, half_extents):
     first-two-only: your code returns only the largest entry of `abs(p) - half_extents`
       if the point lies beyond a z face. Return the norm of the positive entries instead
     mean-square: outside the box, your code divides the sum of the squares by 3 before
-      it takes the root. Omit this division
-    smallest-taken-off: your code subtracts the smallest absolute entry of `abs(p) -
-      half_extents`, even outside the box. Subtract this entry only inside the box
-    edges-negative: near an edge or a corner, your code returns a negative distance
-      outside the box. The signed distance should be positive there
+      it takes the square root. Omit this division
+    smallest-taken-off: your code subtracts the smallest absolute value of the entries
+      of `abs(p) - half_extents`, even outside the box. Subtract this value only inside
+      the box
+    edges-negative: your code returns a negative distance outside the box, near an edge
+      or a corner. The signed distance should be positive everywhere outside the box
     cut-at-both: your code clamps p to the box and returns the norm of the clamped
       point. Outside the box, return the distance from p to the clamped point instead
     """

@@ -47,15 +47,16 @@ def _(a0, a1, r):
     """radius-forgotten: your code omits the radius, so the box contains only the axis.
       Subtract the radius from the lower corner and add it to the upper corner
     radius-on-one-side: your code does not subtract the radius from the lower corner.
-      Subtract it, because the capsule extends by the radius on every side
-    radius-on-one-side 2: your code does not add the radius to the upper corner. Add it,
-      because the capsule extends by the radius on every side
-    radius-inwards: your code adds the radius to the lower corner and subtracts it from
-      the upper one. Subtract it from the lower corner, and add it to the upper one
+      Subtract the radius, because the capsule extends by the radius on every side
+    radius-on-one-side 2: your code does not add the radius to the upper corner. Add the
+      radius, because the capsule extends by the radius on every side
+    radius-inwards: your code adds the radius to the lower corner and subtracts the
+      radius from the upper corner. Subtract the radius from the lower corner, and add
+      it to the upper corner
     radius-added-to-both: your code adds the radius to both corners. Subtract the radius
       from the lower corner instead
-    flat-ends: your code computes the box of a cylinder with flat ends. A capsule ends
-      in spheres, so add the whole radius along every axis
+    flat-ends: your code computes the box of a cylinder with flat ends. A capsule has
+      hemispherical ends, so add the whole radius along every axis
     corners-not-sorted: your code uses `a0` and `a1` as the lower and the upper corner.
       Take the minimum and the maximum of each coordinate
     corners-of-all: your code takes one minimum and one maximum over x, y and z
@@ -63,7 +64,7 @@ def _(a0, a1, r):
     swapped: your code returns the upper corner first. Return the lower corner first
     centre-and-half: your code returns the centre and the half extents. Return the lower
       and the upper corner instead
-    corner-and-size: your code returns the lower corner and the full sides. Return the
+    corner-and-size: your code returns the lower corner and the side lengths. Return the
       lower and the upper corner instead
     half-not-halved: your code uses `abs(a1 - a0)` as the half extents of the axis. Use
       `abs(a1 - a0) / 2` instead
@@ -76,19 +77,19 @@ def _(a0, a1, r):
     around-one-end 2: your code uses only `a1`, so the result is the box of a sphere
       around `a1`. Use `a0` as well
     along-the-axis: your code adds the radius only along the direction of the axis. Add
-      the radius along x, y and z, because each end is a sphere
-    whole-ends-sorted: your code uses all coordinates of one end as the lower corner.
-      Take the minimum of each coordinate separately
-    whole-ends-sorted 2: your code uses all coordinates of one end as the lower corner.
-      Take the minimum of each coordinate separately
-    whole-ends-sorted 3: your code uses all coordinates of one end as the lower corner.
-      Take the minimum of each coordinate separately
-    cube-in-the-ball: your code adds `r / sqrt(3)`, which gives the cube inside the
-      sphere. Add r instead, because the box must contain the sphere
+      the radius along x, y and z, because the capsule contains a sphere at each end
+    whole-ends-sorted: your code uses all coordinates of one endpoint as the lower
+      corner. Take the minimum of each coordinate separately
+    whole-ends-sorted 2: your code uses all coordinates of one endpoint as the lower
+      corner. Take the minimum of each coordinate separately
+    whole-ends-sorted 3: your code uses all coordinates of one endpoint as the lower
+      corner. Take the minimum of each coordinate separately
+    cube-in-the-ball: your code adds `r / sqrt(3)`, which gives the cube inscribed in
+      the sphere at each end. Add `r` instead, because the box must contain both spheres
     radius-times: your code multiplies the corners by `1 - r` and `1 + r`. Subtract and
-      add r instead
-    with-the-origin: your code returns a box that always contains the origin. Start the
-      minimum and the maximum from `a0` instead of from 0
+      add `r` instead
+    with-the-origin: your code returns a box that always contains the origin. Initialise
+      the minimum and the maximum with `a0`, not with 0
     size-of-places: your code takes the minimum and the maximum of the absolute
       coordinates. Use the coordinates with their signs
     as-a-ball: your code computes the box of a sphere around the whole capsule. Use the

@@ -127,20 +127,21 @@ def golden(f, n, keep=0.618, wrong=False):
 
 @row.wrongs
 def _(a0, a1, r, T_world_box, half_extents):
-    """ends-only: your code tests only the ends of the axis. Minimise `box_sdf` along
-      the axis, because the nearest point can lie between the ends
-    one-end-only: your code always returns the distance at the end `a1`. Does your
+    """ends-only: your code tests only the endpoints of the axis. Minimise `box_sdf`
+      along the axis, because the nearest point can lie between the endpoints
+    one-end-only: your code always returns the distance at the endpoint `a1`. Does your
       search always keep the upper part of the interval?
-    one-end-only 2: your code always returns the distance at the end `a0`. Does your
-      search always keep the lower part of the interval?
+    one-end-only 2: your code always returns the distance at the endpoint `a0`. Does
+      your search always keep the lower part of the interval?
     middle-only: your code tests only the midpoint of the axis. Minimise `box_sdf` along
-      the axis, because the nearest point can be anywhere on it
+      the axis, because the nearest point can be anywhere on the axis
     five-points: your code tests only some points of the axis. Minimise `box_sdf` along
       the axis, because the nearest point can lie between the tested points
     five-points 2: your code tests only some points of the axis. Minimise `box_sdf`
       along the axis, because the nearest point can lie between the tested points
-    three-points: your code tests only the ends and the midpoint of the axis. Minimise
-      `box_sdf` along the axis, because the nearest point can lie between these points
+    three-points: your code tests only the endpoints and the midpoint of the axis.
+      Minimise `box_sdf` along the axis, because the nearest point can lie between these
+      points
     eleven-points: your code tests only some points of the axis. Minimise `box_sdf`
       along the axis, because the nearest point can lie between the tested points
     eleven-points 2: your code tests only some points of the axis. Minimise `box_sdf`
@@ -148,55 +149,56 @@ def _(a0, a1, r, T_world_box, half_extents):
     nearest-to-the-centre: your code uses the point of the axis nearest to the centre of
       the box. Minimise `box_sdf` along the axis, because another point can be nearer to
       a face
-    world-axes: your code subtracts the position of the box from the ends, but it does
-      not rotate them. Use R^T (x - t) to express each end x in the box frame
-    turned-the-other-way: your code multiplies the ends by R. Multiply them by R^T
+    world-axes: your code subtracts the position of the box from the endpoints, but it
+      does not rotate the results. Use `R^T (x - t)` to express each endpoint x in the
+      box frame
+    turned-the-other-way: your code multiplies the endpoints by R. Multiply them by R^T
       instead, which rotates from the world frame to the box frame
     pose-not-inverted: your code applies `T_world_box`, which maps from the box frame to
       the world frame. Apply the inverse of `T_world_box` instead
-    place-forgotten: your code rotates the ends but does not translate them. Subtract
-      the position of the box before the rotation
+    place-forgotten: your code rotates the endpoints but does not translate them.
+      Subtract the position of the box before the rotation
     turned-then-moved: your code subtracts the position of the box after the rotation.
-      Subtract it before the rotation, as in R^T (x - t)
-    t-added: your code adds the position of the box to the ends. Subtract it instead, as
-      in R^T (x - t)
+      Subtract the position before the rotation, as in `R^T (x - t)`
+    t-added: your code adds the position of the box to the endpoints. Subtract the
+      position instead, as in `R^T (x - t)`
     radius-forgotten: your code omits the radius, so the result is the distance from the
       axis to the box. Subtract r
     radius-added: your code adds the radius. Subtract the radius instead
-    radius-to-the-box: your code enlarges the box by the radius. Subtract the radius
-      from the distance instead, because the enlarged box has sharp corners
-    radius-to-the-box 2: your code enlarges the box by the radius. Subtract the radius
-      from the distance instead, because the enlarged box has sharp corners
-    way-not-turned: your code rotates the start of the axis into the box frame, but not
-      the direction of the axis. Multiply `a1 - a0` by R^T
+    radius-to-the-box: your code enlarges the box by the radius, but the enlarged box
+      still has sharp corners. Subtract the radius from the distance instead
+    radius-to-the-box 2: your code enlarges the box by the radius, but the enlarged box
+      still has sharp corners. Subtract the radius from the distance instead
+    way-not-turned: your code expresses the start point of the axis in the box frame,
+      but not the direction of the axis. Multiply `a1 - a0` by R^T
     wrong-half-kept: your search keeps the wrong part of the interval, so it finds the
       farthest point of the axis. Keep the part with the smaller value of `box_sdf`
     wrong-half-kept 2: your search keeps the wrong part of the interval, so it finds the
       farthest point of the axis. Keep the part with the smaller value of `box_sdf`
     bounding-sphere: your code treats the box as a sphere. Compare each coordinate with
       the half extent along its own axis
-    ends-left-out: your search never tests the ends of the axis. Start with the whole
-      interval [0, 1]
+    ends-left-out: your search never tests the endpoints of the axis. Start with the
+      whole interval [0, 1]
     never-negative: your code returns 0 for shapes that overlap. The signed distance
       should be negative for such shapes
-    sign: your code negates the signed distance. It should be positive for shapes that
-      do not overlap
-    outside-only: your code replaces the negative value of `box_sdf` by 0 if the axis
-      enters the box. Keep the negative value, and then subtract r
-    as-a-line: your search goes beyond the ends of the axis. Keep the parameter s in [0,
-      1]
+    sign: your code negates the signed distance. The signed distance should be positive
+      for shapes that do not overlap
+    outside-only: your code clamps the value of `box_sdf` at 0 if the axis enters the
+      box. Keep the negative value, and then subtract r
+    as-a-line: your search goes beyond the endpoints of the axis. Keep the parameter s
+      in [0, 1]
     way-moved: your code also subtracts the position of the box from the direction of
       the axis. Omit this subtraction, because a direction is rotated but not translated
     way-moved 2: your code uses the vector from the centre of the box to `a1` as the
       direction of the axis. Use `a1 - a0` instead
     way-of-length-1: your code normalises the direction of the axis. Use `a1 - a0`
-      itself, because the parameter runs from 0 to 1
-    not-into-the-box: your code leaves the ends in the world frame. Use R^T (x - t) to
-      express each end x in the box frame
+      itself, because the parameter runs from 0 at `a0` to 1 at `a1`
+    not-into-the-box: your code leaves the endpoints in the world frame. Use `R^T (x -
+      t)` to express each endpoint x in the box frame
     radius-off-the-box: your code shrinks the box by the radius. Subtract the radius
       from the distance instead
-    size-of-the-depth: your code takes the absolute value of `box_sdf` if the axis is
-      inside the box. Keep the negative value
+    size-of-the-depth: your code takes the absolute value of `box_sdf` if the axis
+      enters the box. Keep the negative value
     size-of-the-distance: your code takes the absolute value of the distance. The signed
       distance should be negative for shapes that overlap
     radius-off-the-box 2: your code shrinks the box by the radius. Subtract the radius
@@ -209,17 +211,18 @@ def _(a0, a1, r, T_world_box, half_extents):
       entry belongs to x
     sides-exchanged 2: your code swaps the x and y entries of `half_extents`. The first
       entry belongs to x
-    box-around-it: your code replaces the rotated box by its axis-aligned bounding box.
-      Express the ends in the box frame instead
+    box-around-it: your code uses the axis-aligned bounding box of the rotated box.
+      Express the endpoints in the box frame and use the box itself instead
     half-turned: your code rotates `half_extents`, although its entries are lengths and
-      not components of a vector. Rotate the ends of the axis into the box frame instead
+      not components of a vector. Express the endpoints of the axis in the box frame
+      instead
     mean-along: your code returns the mean of the distances along the axis. Return the
       smallest distance instead
     edges-only: your code computes the distance to the edges of the box. Use `box_sdf`,
       because a face can be nearer and the axis can enter the box
-    faces-only: your code tests only the ends and the points where the axis crosses the
-      plane of a face. Minimise `box_sdf` along the axis, because another point can be
-      nearer
+    faces-only: your code tests only the endpoints and the points where the axis crosses
+      the plane of a face. Minimise `box_sdf` along the axis, because another point can
+      be nearer
     point-to-box-in-turn: your code alternates between the nearest point of the box and
       the nearest point of the axis, but it stops too early. Minimise `box_sdf` along
       the axis instead

@@ -87,11 +87,12 @@ def _(a0, a1, ra, b0, b1, rb):
       both radii
     as-diameters: your code subtracts half of each radius. Subtract `ra` and `rb`
       themselves, because they are radii and not diameters
-    twice-the-radii: your code subtracts twice each radius. Subtract each radius once
-    radii-differ: your code subtracts the difference of the radii. Subtract the sum of
-      the radii instead
-    radii-differ 2: your code subtracts the difference of the radii. Subtract the sum of
-      the radii instead
+    twice-the-radii: your code subtracts each radius twice. Subtract each radius only
+      once
+    radii-differ: your code subtracts the difference between the radii. Subtract the sum
+      of the radii instead
+    radii-differ 2: your code subtracts the difference between the radii. Subtract the
+      sum of the radii instead
     larger-radius: your code subtracts only the larger radius. Subtract both radii
     radii-multiplied: your code subtracts the product of the radii. Subtract the sum of
       the radii instead
@@ -101,32 +102,32 @@ def _(a0, a1, ra, b0, b1, rb):
       should be negative for capsules that overlap
     squared: your code omits the square root, so it uses the squared distance between
       the axes. Take the square root before you subtract the radii
-    squared 2: your code subtracts the squared sum of the radii from the squared
+    squared 2: your code subtracts the square of the sum of the radii from the squared
       distance between the axes. Subtract the radii from the distance itself
-    sign: your code negates the signed distance. It should be positive for capsules that
-      do not overlap
+    sign: your code negates the signed distance. The signed distance should be positive
+      for capsules that do not overlap
     of-middles: your code uses the midpoints of the axes as the closest points. Use the
-      points of task 11.1, because the closest points can be anywhere on the axes
-    of-starts: your code uses the starts of the axes as the closest points. Use the
-      points of task 11.1, because the closest points can be anywhere on the axes
-    of-end-pairs: your code uses the nearest pair of ends as the closest points. Use the
-      points of task 11.1, because the closest points can lie between the ends
-    largest-part: your code uses the largest absolute component of p - o as the distance
-      between p and o. Use the norm of p - o instead
-    sum-of-parts: your code uses the sum of the absolute components of p - o as the
-      distance between p and o. Use the norm of p - o instead
-    in-the-plane 2: your code omits the x component of p - o. Use all three components
-    in-the-plane 3: your code omits the y component of p - o. Use all three components
+      closest points from task 11.1, because they can be anywhere on the axes
+    of-starts: your code uses the start points of the axes as the closest points. Use
+      the closest points from task 11.1, because they can be anywhere on the axes
+    of-end-pairs: your code uses the closest pair of endpoints as the closest points.
+      Use the closest points from task 11.1, because they can lie between the endpoints
+    largest-part: your code uses the largest absolute component of `p - o` as the
+      distance between p and o. Use the norm of `p - o` instead
+    sum-of-parts: your code uses the sum of the absolute components of `p - o` as the
+      distance between p and o. Use the norm of `p - o` instead
+    in-the-plane 2: your code omits the x component of `p - o`. Use all three components
+    in-the-plane 3: your code omits the y component of `p - o`. Use all three components
     product-of-radii: your code subtracts the square root of the product of the radii.
       Subtract the sum of the radii instead
     squares-of-radii: your code subtracts the squares of the radii. Subtract the radii
       themselves instead
     over-the-radii: your code divides the distance between the axes by the sum of the
       radii. Subtract the sum instead
-    ends-and-middles: your code tests only the ends and the midpoints of both axes. Use
-      the points of task 11.1, because the closest points can be anywhere on the axes
-    same-share: your code uses the same parameter on both axes. Use the points of task
-      11.1, because each closest point has its own parameter
+    ends-and-middles: your code tests only the endpoints and the midpoints of both axes.
+      Use the closest points from task 11.1, because they can be anywhere on the axes
+    same-share: your code uses the same parameter for both axes. Use the closest points
+      from task 11.1, because each of them has its own parameter
     twice-the-larger: your code subtracts the larger radius twice. Subtract the radius
       of each capsule once
     radii-as-sides: your code subtracts `sqrt(ra**2 + rb**2)`. Subtract `ra + rb`
@@ -135,45 +136,48 @@ def _(a0, a1, ra, b0, b1, rb):
       distance between the axes. Return `d - (ra + rb)` instead
     root-of-squares 2: your code returns `sqrt(d**2 - (ra + rb)**2)`, where d is the
       distance between the axes. Return `d - (ra + rb)` instead
-    least-part: your code uses the smallest absolute component of p - o as the distance
-      between p and o. Use the norm of p - o instead
-    parts-with-signs: your code adds the components of p - o with their signs. Use the
-      norm of p - o instead
-    parts-with-signs 2: your code adds the components of p - o with their signs. Use the
-      norm of p - o instead
-    mean-square: your code divides the sum of the squares by 3 before it takes the root.
-      Omit this division
-    lengths-differ: your code uses the difference of the norms of p and o as their
-      distance. Use the norm of p - o instead
+    least-part: your code uses the smallest absolute component of `p - o` as the
+      distance between p and o. Use the norm of `p - o` instead
+    parts-with-signs: your code adds the components of `p - o` with their signs. Use the
+      norm of `p - o` instead
+    parts-with-signs 2: your code adds the components of `p - o` with their signs. Use
+      the norm of `p - o` instead
+    mean-square: your code divides the sum of the squares by 3 before it takes the
+      square root. Omit this division
+    lengths-differ: your code uses the difference between the norms of p and o as the
+      distance between p and o. Use the norm of `p - o` instead
     cut-once: your code subtracts `ra`, clamps the result at 0 and then subtracts `rb`.
-      Omit the clamp, because the distance may become negative
+      Omit the clamp, because the signed distance can be negative
     one-number-inside: your code always returns -1 for capsules that overlap. Return the
       distance between the axes minus both radii
     one-number-inside 2: your code returns minus the smaller radius for capsules that
       overlap. Return the distance between the axes minus both radii
     axes-inside: your code returns minus the distance between the axes for capsules that
       overlap. Return the distance between the axes minus both radii
-    ends-only: your code assumes that one of the closest points is an end of an axis.
-      Use the points of task 11.1, because both points can lie between the ends
-    ends-only 2: your code tests only the ends of the first axis. Use the points of task
-      11.1, because the closest point of this axis can lie between the ends
-    ends-only 3: your code tests only the ends of the second axis. Use the points of
-      task 11.1, because the closest point of this axis can lie between the ends
-    sampled: your code tests only some points of each axis. Use the points of task 11.1,
-      because the closest points can lie between the tested points
-    sampled 2: your code tests only some points of each axis. Use the points of task
-      11.1, because the closest points can lie between the tested points
-    sampled 3: your code tests only some points of each axis. Use the points of task
-      11.1, because the closest points can lie between the tested points
-    sampled 4: your code tests only some points of each axis. Use the points of task
-      11.1, because the closest points can lie between the tested points
-    lines: your code treats the axes as infinite lines. Use the points of task 11.1,
-      because the axes are segments
-    grown-axes: your code extends each axis by its radius at both ends. Omit this
-      extension, because subtracting the radii already includes the round ends
+    ends-only: your code assumes that one of the closest points is an endpoint of an
+      axis. Use the closest points from task 11.1, because both can lie between the
+      endpoints
+    ends-only 2: your code tests only the endpoints of the first axis. Use the closest
+      points from task 11.1, because the closest point of the first axis can lie between
+      its endpoints
+    ends-only 3: your code tests only the endpoints of the second axis. Use the closest
+      points from task 11.1, because the closest point of the second axis can lie
+      between its endpoints
+    sampled: your code tests only some points of each axis. Use the closest points from
+      task 11.1, because they can lie between the tested points
+    sampled 2: your code tests only some points of each axis. Use the closest points
+      from task 11.1, because they can lie between the tested points
+    sampled 3: your code tests only some points of each axis. Use the closest points
+      from task 11.1, because they can lie between the tested points
+    sampled 4: your code tests only some points of each axis. Use the closest points
+      from task 11.1, because they can lie between the tested points
+    lines: your code treats the axes as infinite lines. Use the closest points from task
+      11.1, because the axes are segments
+    grown-axes: your code extends each axis by its capsule's radius at both ends. Omit
+      this extension, because subtracting the radii already accounts for the round ends
     starts-and-ends: your code uses the segments from `a0` to `b0` and from `a1` to
-      `b1`. Use the axes, from `a0` to `a1` and from `b0` to `b1`
-    in-the-plane: your code omits the z component of p - o. Use all three components
+      `b1`. Use the axes instead, which run from `a0` to `a1` and from `b0` to `b1`
+    in-the-plane: your code omits the z component of `p - o`. Use all three components
     """
     p, o = closest_points_segments(a0, a1, b0, b1)
     axes = np.linalg.norm(p - o)

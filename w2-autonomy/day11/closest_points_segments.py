@@ -17,36 +17,36 @@ row = Row(
         HeldOut(
             "parallel-not-handled",
             "Your result is wrong for some parallel segments. For parallel segments, "
-            "a c - b b is 0, so the formula for s gives 0 / 0. Start with any s in "
+            "`a c - b b` is 0, so the formula for s gives 0 / 0. Start with any s in "
             "[0, 1] instead. Then compute and clamp t, and finally compute and clamp "
             "s.",
             lambda rng: pairs.arrays(pairs.PARALLEL),
         ),
         HeldOut(
             "side-by-side-not-handled",
-            "Your result is wrong for parallel segments that lie side by side. They "
-            "have many closest pairs, so return any one of these pairs.",
+            "Your result is wrong for parallel segments that lie side by side. Such "
+            "segments have many closest pairs, so return any one of these pairs.",
             lambda rng: pairs.arrays(pairs.ALONGSIDE),
         ),
         HeldOut(
             "nearly-parallel",
             "Your result is wrong for segments that are half a degree from parallel. "
-            "Such segments have a single closest pair. Does your code compare a c - "
-            "b b with too large a fraction of a c?",
+            "Such segments have a single closest pair. Does your code compare "
+            "`a c - b b` with too large a fraction of `a c`?",
             lambda rng: pairs.arrays(pairs.NEARLY_PARALLEL),
         ),
         HeldOut(
             "point-not-handled",
-            "Your result is wrong if a segment is a point, that is, if its length is "
-            "0. Use any parameter in [0, 1] for this segment instead of 0 / 0, and "
-            "clamp the parameter of the other segment.",
+            "Your result is wrong if the length of a segment is 0. For that segment, "
+            "use any parameter in [0, 1] instead of 0 / 0. Clamp the parameter of the "
+            "other segment.",
             lambda rng: pairs.arrays(pairs.POINTS),
         ),
         HeldOut(
             "size-absolute",
             "Your result is correct for segments of about 1 m, but not for segments "
-            "of a few millimetres. Compare a c - b b with a fraction of a c instead of "
-            "a constant, because the unit of a c - b b is m^4.",
+            "of a few millimetres. Compare `a c - b b` with a fraction of `a c`, not "
+            "with a constant, because the unit of `a c - b b` is m^4.",
             lambda rng: [
                 tuple(0.002 * x for x in pairs.segments(rng, one))
                 for one in ("inside", "an end", "inside", "an end")
@@ -72,8 +72,8 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, b0, b1):
-    """not-clamped: your code does not clamp s and t. Clamp them to [0, 1], because
-      otherwise the points can lie beyond the ends of the segments
+    """not-clamped: your code does not clamp s and t. Clamp both to [0, 1], because
+      otherwise the points can lie outside the segments
     clamped-apart: your code clamps s and t independently. If one parameter is clamped,
       the optimal value of the other changes, so recompute the other parameter
     s-not-again: your code does not recompute s after it clamps t. Recompute s, because
@@ -83,31 +83,32 @@ def _(a0, a1, b0, b1):
     s-not-again 3: your code does not recompute t after the last clamp of s. Recompute
       t, because the optimal t depends on s
     t-not-cut: your code does not clamp t. Clamp t to [0, 1], because otherwise the
-      second point can lie beyond an end of its segment
+      second point can lie outside its segment
     s-not-cut: your code does not clamp s. Clamp s to [0, 1], because otherwise the
-      first point can lie beyond an end of its segment
+      first point can lie outside its segment
     cut-below-only: your code clamps s and t at 0, but not at 1. Clamp both to [0, 1],
-      because otherwise the points can lie beyond the ends
+      because otherwise the points can lie beyond `a1` and `b1`
     cut-above-only: your code clamps s and t at 1, but not at 0. Clamp both to [0, 1],
-      because otherwise the points can lie before the starts
-    ends-only: your code assumes that one of the closest points is an end of a segment.
-      If the s and t of the infinite lines both lie in [0, 1], use these values instead
-    end-pairs: your code returns the two ends that are nearest to each other. Compute s
-      and t instead, because the closest points can lie between the ends
-    end-pairs 2: your code returns the end of the first segment that is nearest to the
-      second segment. Compute s instead, because the closest point can lie between the
-      ends
+      because otherwise the points can lie before `a0` and `b0`
+    ends-only: your code assumes that one of the closest points is an endpoint of a
+      segment. If s and t for the infinite lines both lie in [0, 1], use these values
+      instead
+    end-pairs: your code returns the closest pair of endpoints. Compute s and t instead,
+      because the closest points can lie between the endpoints
+    end-pairs 2: your code returns the endpoint of the first segment that is nearest to
+      the second segment. Compute s instead, because the closest point can lie between
+      the endpoints
     w-sign: your code uses `b0 - a0` as w. Use `w = a0 - b0`, the vector from the start
       of the second segment to the start of the first
     d-and-e-swapped: your code swaps d and e. Use d = u . w and e = v . w
-    numerator-sign: your code negates the s of the infinite lines. Use s = (b e - c d) /
-      (a c - b b)
-    b-sign: your code negates b. Use b = u . v, so that a s - b t + d = 0 and b s - c t
-      + e = 0 at the minimum
-    across-plus: your code divides by a c + b b. Divide by a c - b b instead, which is 0
-      for parallel segments
-    across-of-lengths: your code divides by a c, which is correct only for perpendicular
-      segments. Divide by a c - b b instead
+    numerator-sign: your code negates s for the infinite lines. Use `s = (b e - c d) /
+      (a c - b b)`
+    b-sign: your code negates b. Use b = u . v, so that `a s - b t + d = 0` and `b s - c
+      t + e = 0` at the minimum
+    across-plus: your code divides by `a c + b b`. Divide by the determinant `a c - b b`
+      instead
+    across-of-lengths: your code divides by `a c`, which is correct only for
+      perpendicular segments. Divide by `a c - b b` instead
     swapped-to-s: your code swaps s and t. The parameter s belongs to the first segment,
       and t to the second
     points-swapped: your code returns the point of the second segment first. Return the
@@ -118,41 +119,41 @@ def _(a0, a1, b0, b1):
       because the closest points can be anywhere on the segments
     same-share: your code sets t equal to s. Compute t separately, because each segment
       has its own parameter
-    shares: your code returns s u and t v, which are only displacements from the starts.
-      Add `a0` to s u, and `b0` to t v
+    shares: your code returns only the displacements s u and t v from the start points.
+      Add `a0` to s u and `b0` to t v
     beyond-the-ends: your code adds s u to `a1` and t v to `b1`. Add s u to `a0` and t v
       to `b0` instead
     t-from-the-end: your code subtracts t v from `b1`. Add t v to `b0` instead, because
       t is 0 at the start of the segment
     s-from-the-end: your code subtracts s u from `a1`. Add s u to `a0` instead, because
       s is 0 at the start of the segment
-    unit-directions: your code normalises u and v. Use u and v themselves, because
-      otherwise s and t are lengths in metres and not fractions
+    unit-directions: your code normalises u and v. Use u and v themselves, because s and
+      t should be fractions and not lengths in metres
     nearest-to-the-middle: your code returns the midpoint of the second segment and the
-      nearest point of the first segment. Compute t as well, because the closest point
-      can be anywhere on the second segment
+      point of the first segment that is nearest to this midpoint. Compute t as well,
+      because the closest point can be anywhere on the second segment
     sampled: your code tests only some points of each segment. Compute s and t instead,
       because the closest points can lie between the tested points
     sampled 2: your code tests only some points of each segment. Compute s and t
       instead, because the closest points can lie between the tested points
     sampled 3: your code tests only some points of each segment. Compute s and t
       instead, because the closest points can lie between the tested points
-    ends-where-cut: your code returns the two nearest ends if the closest points of the
-      lines are not both on the segments. Clamp s instead, and then recompute t and s
-      with a clamp after each
-    ends-where-cut 2: your code tests only the ends of the first segment if the closest
-      points of the lines are not both on the segments. Test the ends of the second
-      segment too
-    ends-where-cut 3: your code tests only the ends of the second segment if the closest
-      points of the lines are not both on the segments. Test the ends of the first
-      segment too
+    ends-where-cut: your code returns the closest pair of endpoints if the closest
+      points of the lines are not both on the segments. Clamp s instead, then recompute
+      and clamp t, and finally recompute and clamp s
+    ends-where-cut 2: your code tests only the endpoints of the first segment if the
+      closest points of the lines are not both on the segments. Test the endpoints of
+      the second segment too
+    ends-where-cut 3: your code tests only the endpoints of the second segment if the
+      closest points of the lines are not both on the segments. Test the endpoints of
+      the first segment too
     start-where-cut: your code sets s to 0 if the closest points of the lines are not
       both on the segments. Clamp s to [0, 1] instead
     start-where-cut 2: your code sets s to 0 if s is outside [0, 1]. Clamp s instead, so
       that a value above 1 becomes 1
     start-where-cut 3: your code sets s to 0.5 if s is outside [0, 1]. Clamp s to [0, 1]
       instead
-    start-where-cut 4: your code sets each of s and t to 0 if it is outside [0, 1].
+    start-where-cut 4: your code uses 0 for each of s and t that is outside [0, 1].
       Clamp both instead, so that a value above 1 becomes 1
     one-end-cut: your code recomputes s if t is below 0, but not if t is above 1.
       Recompute s in both cases
@@ -162,22 +163,22 @@ def _(a0, a1, b0, b1):
       otherwise the second point can lie before `b0`
     t-one-end-cut 2: your code clamps t at 0, but not at 1. Clamp t to [0, 1], because
       otherwise the second point can lie beyond `b1`
-    a-start-alone: your code returns the start of the first segment and the nearest
-      point of the second segment. Compute s as well, because the closest point can be
-      anywhere on the first segment
-    a-middle-alone: your code returns the midpoint of the first segment and the nearest
-      point of the second segment. Compute s as well, because the closest point can be
-      anywhere on the first segment
-    farthest: your code selects the farthest of the candidate pairs. Select the nearest
-      pair instead
-    one-round: your code starts with s = 0 and computes t and s only once. This does not
-      always reach the minimum, so start with the s of the infinite lines, clamped to
-      [0, 1]
-    one-round 2: your code starts with s = 0.5 and computes t and s only once. This does
-      not always reach the minimum, so start with the s of the infinite lines, clamped
-      to [0, 1]
-    difference: your code returns the difference of the two points in both rows. Return
-      the two points instead
+    a-start-alone: your code returns the start point of the first segment and the point
+      of the second segment that is nearest to this start point. Compute s as well,
+      because the closest point can be anywhere on the first segment
+    a-middle-alone: your code returns the midpoint of the first segment and the point of
+      the second segment that is nearest to this midpoint. Compute s as well, because
+      the closest point can be anywhere on the first segment
+    farthest: your code selects the candidate pair with the largest distance. Select the
+      pair with the smallest distance instead
+    one-round: your code starts with s = 0 and computes t and s only once. A single
+      iteration from this start does not always reach the minimum, so start with s for
+      the infinite lines, clamped to [0, 1]
+    one-round 2: your code starts with s = 0.5 and computes t and s only once. A single
+      iteration from this start does not always reach the minimum, so start with s for
+      the infinite lines, clamped to [0, 1]
+    difference: your code returns the difference between the two points in both rows.
+      Return the points themselves instead
     """
     u, v, a, b, c, d, e = bowl(a0, a1, b0, b1)
     right = thrice(a, b, c, d, e)
@@ -370,7 +371,7 @@ def least_angle(share):
 
 ALIKE = (
     "your code treats segments at an angle of a few degrees as parallel. Use a much "
-    "smaller limit for a c - b b, because such segments have a single closest pair"
+    "smaller limit for `a c - b b`, because such segments have a single closest pair"
 )
 SELDOM = "hardly a pair in a run is so nearly parallel"
 row.wrong("nearly-parallel", hidden=SELDOM)(least_angle(1e-3))
@@ -394,8 +395,8 @@ def rounds(n, start):
 
 
 FEW = (
-    "your code computes t and s alternately, but it stops too early. Start with the s "
-    "of the infinite lines, clamped to [0, 1], because one iteration is then enough"
+    "your code computes t and s alternately, but it stops too early. Start with s for "
+    "the infinite lines, clamped to [0, 1], because one iteration is then enough"
 )
 for n in (2, 3, 4, 5, 10):
     for start in (0.0, 0.5):

@@ -113,7 +113,7 @@ def _(rng):
     hidden={"still-before-touching": "in a run nothing is still where it touches"}
 )
 def _(s, distance, delta_q, radii):
-    """no-bound: your code adds the distance in metres to s. Divide the distance first
+    """no-bound: your code adds the distance in metres to s. First divide the distance
       by the bound on the motion per unit of s
     signs-kept: your code adds the entries of `delta_q` with their signs, so opposite
       rotations cancel. Take the absolute value of each entry first
@@ -125,8 +125,9 @@ def _(s, distance, delta_q, radii):
     fastest-joint-only 2: your code multiplies the largest `abs(delta_q[i])` by the
       largest radius. Add `abs(delta_q[i]) * radii[i]` over all joints, because their
       motions add up
-    norm-of-dq: your code multiplies the norm of `delta_q` by the largest radius, which
-      is not an upper bound. Add `abs(delta_q[i]) * radii[i]` over all joints instead
+    norm-of-dq: your code multiplies the norm of `delta_q` by the largest radius, but
+      this product is not an upper bound on the motion. Add `abs(delta_q[i]) * radii[i]`
+      over all joints instead
     norm-of-products: your code takes the norm of the products `abs(delta_q[i]) *
       radii[i]`. Take the sum of the products instead
     norm-of-products 2: your code multiplies the norm of `delta_q` by the norm of
@@ -136,20 +137,20 @@ def _(s, distance, delta_q, radii):
     reach-forgotten: your code omits `radii`. Multiply each `abs(delta_q[i])` by
       `radii[i]`, because the product bounds the motion in metres
     dq-forgotten: your code omits `delta_q` in the bound. The bound should grow with
-      `delta_q`, because a longer motion moves the arm further
-    of-what-is-left: your code multiplies the step by 1 - s. Omit this factor, because
-      `delta_q` belongs to the whole motion
-    of-what-is-left 2: your code divides the step by 1 - s. Omit this division, because
-      `delta_q` belongs to the whole motion
+      `delta_q`, because a larger joint displacement moves the arm farther
+    of-what-is-left: your code multiplies the step by `1 - s`. Omit this factor, because
+      `delta_q` is the displacement of the whole motion, from s = 0 to s = 1
+    of-what-is-left 2: your code divides the step by `1 - s`. Omit this division,
+      because `delta_q` is the displacement of the whole motion, from s = 0 to s = 1
     half-a-step: your code takes only half of the step that the bound allows. Use the
       whole step
     twice-a-step: your code takes twice the step that the bound allows, so the arm can
       hit the obstacle. Divide the distance by the bound itself
     multiplied: your code multiplies the distance by the bound. Divide the distance by
-      the bound, because a faster motion needs a shorter step
+      the bound instead, because a faster motion needs a shorter step
     s-forgotten: your code returns the step alone. Return s plus the step
-    not-capped: your code can return a value above 1, the end of the motion. Clamp the
-      result at 1
+    not-capped: your code can return a value above 1. Clamp the result at 1, because the
+      motion ends at s = 1
     standing-still: your code divides by 0 if no joint moves. Return 1, because the rest
       of the motion is collision-free
     standing-still 2: your code returns s if no joint moves. Return 1, because the rest
@@ -176,29 +177,29 @@ def _(s, distance, delta_q, radii):
       products
     one-direction: your code treats negative entries of `delta_q` as 0. Take absolute
       values instead, because rotations in both directions move the arm
-    one-left-out: your code omits the last joint in the sum. Add the products of all
+    one-left-out: your code omits the last joint from the sum. Add the products of all
       joints
-    one-left-out 2: your code omits the first joint in the sum. Add the products of all
-      joints
+    one-left-out 2: your code omits the first joint from the sum. Add the products of
+      all joints
     chord: your code uses the chord `2 * sin(delta_q / 2)`. Use `abs(delta_q)` instead,
-      because a point moves along the arc, which is longer
+      because a point moves along the arc, which is longer than the chord
     mean-of-joints: your code uses the mean of the products over the joints as the
       bound. Use the sum instead, because the motions of all joints add up
     step-capped: your code clamps the step at 1. Clamp the sum of s and the step
       instead, because this sum can exceed 1
     limit-of-the-whole: your code returns 1 if the distance is at least the bound on the
-      whole motion. Multiply this bound by 1 - s, because only this part of the motion
-      remains
-    step-capped 2: your code returns the smaller of 1 - s and the step. Return the
+      whole motion. Multiply this bound by `1 - s`, because only this fraction of the
+      motion remains
+    step-capped 2: your code returns the smaller of `1 - s` and the step. Return the
       smaller of 1 and s + step instead
     max-for-min: your code uses `max` instead of `min`, so the result is never below 1.
       Return the smaller of 1 and s + step
     shares-summed: your code adds the steps that each joint alone would allow. Add the
       products `abs(delta_q[i]) * radii[i]` first, and then divide the distance by this
       sum
-    careful: your code uses only a part of the step that the bound allows. Use the whole
-      step
-    careful 2: your code uses only a part of the step that the bound allows. Use the
+    careful: your code uses only a fraction of the step that the bound allows. Use the
+      whole step
+    careful 2: your code uses only a fraction of the step that the bound allows. Use the
       whole step
     time: your code returns the number of steps instead of s. Return s + step
     """

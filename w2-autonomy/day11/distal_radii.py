@@ -59,13 +59,13 @@ def _(rng):
 def _(link_lengths, link_radii):
     """to-the-tip-only: your code uses only the last link for the bound. Take the
       maximum over all distal links, because a point on an earlier link can be farther
-      away
+      from the joint
     own-link-only: your code uses only the joint's own link for the bound. Take the
-      maximum over the distal links too, because the joint also moves them
+      maximum over the distal links too, because the joint also moves these links
     next-only: your code uses the radius of the next link and ignores the links after
       it. Use the bound of the next joint instead
-    from-the-base: your code measures the distances from the base. Measure them from
-      joint i to its distal links instead
+    from-the-base: your code measures the distances from the base. Measure the distances
+      from joint i to its distal links instead
     offset-one-late: for joint i, your code uses `link_lengths[i + 1]`. Use
       `link_lengths[i]` instead, the distance from link i to the next link
     offset-of-the-last: your code adds the last entry of `link_lengths`. Omit this
@@ -73,77 +73,78 @@ def _(link_lengths, link_radii):
     offset-of-the-last 2: your code uses the last entry of `link_lengths` as a radius.
       Omit this entry, because no link follows the last link
     offset-to-its-own: your code adds the link length to the radius of the joint's own
-      link. Add this length only for the links after this link
+      link. Add this length only for the links after the joint's own link
     far-forgotten: your code omits `link_radii`, so the bound contains only link
-      lengths. Add the radius of each link to the distance to its origin
-    offsets-forgotten: your code omits `link_lengths`, so the result is the largest link
-      radius. Add the lengths between the joint and the distal link
-    all-summed: your code adds the radii of all distal links. Use only one radius,
-      because only one point is the farthest
+      lengths. Add the radius of each link to the distance to that link's origin
+    offsets-forgotten: your code omits `link_lengths`, so each bound is only a link
+      radius. Add the lengths between the joint and each distal link
+    all-summed: your code adds the radii of all distal links. Use the radius of only one
+      link, because the farthest point lies on only one link
     largest-far: your code adds the largest link radius of the arm to the distance to
-      the last link. Add each radius to the distance to its own link, and then take the
-      maximum
+      the last link. Add the radius of each link to the distance to that link, and then
+      take the maximum
     least: your code takes the minimum of the link radius and the sum of the link length
       and the next joint's bound. Take the maximum instead, because the bound must hold
       for every distal point
     not-in-a-row: your code adds the link length to the radius of the joint's own link.
-      Add it to the bound of the next joint, and then take the maximum of the sum and
-      the radius
-    euclid: your code takes the root of the sum of the squared lengths. Take the sum of
-      the lengths instead, which is the distance in the stretched arm
+      Add the link length to the bound of the next joint instead, and then take the
+      maximum of this sum and the radius
+    euclid: your code takes the square root of a sum of squared lengths. Add the lengths
+      themselves instead, because their sum is the distance when the arm is fully
+      stretched
     one-for-all: your code returns the largest bound for every joint. Each joint should
       have its own bound
     backwards: your code returns the bounds in reverse order. The first bound belongs to
       joint 1
     sum-from-the-base: your code sums the link lengths from the base to the joint. Sum
-      the link lengths from the joint to the distal link
+      the link lengths from the joint to each distal link instead
     far-of-its-own: your code adds the radius of the joint's own link to the sum of all
-      distal link lengths. Add each radius to the distance to its own link, and then
-      take the maximum
+      distal link lengths. Add the radius of each link to the distance to that link, and
+      then take the maximum
     far-of-its-own 2: your code adds the radius of the joint's own link to the sum of
-      all distal link lengths. Add each radius to the distance to its own link, and then
-      take the maximum
+      all distal link lengths. Add the radius of each link to the distance to that link,
+      and then take the maximum
     forwards: your code works from the base outwards. Start at the last joint, because a
       joint moves the links distal to it
     less-the-base: your code uses the farthest point of the whole arm for every joint.
-      Use only the links that the joint moves
-    less-the-base 2: your code measures the farthest distal point from the base. Measure
-      it from the joint instead
+      For each joint, use only the links that the joint moves
+    less-the-base 2: your code measures the distance to the farthest distal point from
+      the base. Measure this distance from the joint instead
     largest-far-behind: your code adds the largest distal radius to the distance to the
-      last link. Add each radius to the distance to its own link, and then take the
-      maximum
-    largest-far-behind 2: your code adds the largest radius after the joint's own link
-      to the distance to the last link. Add each radius to the distance to its own link,
-      and then take the maximum
-    own-offset-repeated: your code repeats the length of the joint's own link for every
+      last link. Add the radius of each link to the distance to that link, and then take
+      the maximum
+    largest-far-behind 2: your code adds the largest radius of the links after the
+      joint's own link to the distance to the last link. Add the radius of each link to
+      the distance to that link, and then take the maximum
+    own-offset-repeated: your code uses the length of the joint's own link for every
       distal link. Use the length of each link instead
     offset-of-the-one-before: for joint i, your code uses `link_lengths[i - 1]`. Use
       `link_lengths[i]` instead, the distance from link i to the next link
-    far-of-the-next: your code uses the radius of the next link in place of the radius
-      of the joint's own link. Use the radius of the joint's own link
-    own-left-out: your code omits the joint's own link. Include it, because the farthest
-      point can be on this link
+    far-of-the-next: your code uses the radius of the next link as the radius of the
+      joint's own link. Use the radius of the joint's own link
+    own-left-out: your code omits the joint's own link. Include this link, because the
+      farthest point can be on the joint's own link
     own-or-tip: your code uses only the joint's own link and the last link for the
-      bound. Include all links between them, because a point on one of them can be
-      farther away
+      bound. Include all links between them, because a point on one of these links can
+      be farther from the joint
     two-behind-only: your code uses only the joint's own link and the next two links for
       the bound. Include all distal links, because the joint moves all of them
     sum-not-largest: your code adds the link radius to the maximum of the link length
-      and the next joint's bound. Take the maximum of the link radius and the sum of the
-      other two instead
+      and the next joint's bound. Add the link length to the next joint's bound first,
+      and then take the maximum of this sum and the link radius
     largest-of-three: your code takes the maximum of the link radius, the link length
-      and the bound of the next joint. Add the link length and the bound before you take
-      the maximum
+      and the bound of the next joint. Add the link length to the next joint's bound
+      before you take the maximum
     largest-far-next: your code adds the largest link radius to the link length. Add the
-      bound of the next joint instead
+      bound of the next joint to the link length instead
     mean-not-largest: your code takes the mean over the distal links. Take the maximum
       instead, because the bound must hold for every distal point
     offsets-alone: your code takes the maximum of the link radius and the sum of the
-      link lengths. Add the radius of each distal link to the distance to that link
-      first
+      link lengths. Before you take the maximum, add the radius of each distal link to
+      the distance to that link
     last-link-forgotten: your code treats the radius of the last link as 0. Use the last
       entry of `link_radii`
-    last-link-forgotten 2: your code omits the last link. Include it, because the
+    last-link-forgotten 2: your code omits the last link. Include this link, because the
       farthest point of the arm can be on the last link
     offsets-to-the-end: your code adds all entries of `link_lengths`, including the last
       one, to the radius of the last link. Omit the last entry, because no link follows

@@ -81,52 +81,53 @@ def _(rng):
 
 @row.wrongs
 def _(J_space, p, o, link):
-    """towards-the-obstacle: your code negates the gradient. Use the unit vector along p
-      - o, because the distance increases if p moves along p - o
+    """towards-the-obstacle: your code negates the gradient. Use the unit vector along
+      `p - o`, because the distance increases if p moves along `p - o`
     columns-behind-kept: your code also computes entries for the joints distal to the
       link. Set these entries to 0, because these joints do not move the link
     own-joint-left-out: your code sets the entry for the link's own joint to 0. Include
       this joint, because it also moves the link
-    one-column-too-many: your code also computes an entry for joint `link` + 1. Set this
-      entry to 0, because the joint moves only distal links
+    one-column-too-many: your code also computes an entry for joint `link + 1`. Set this
+      entry to 0, because that joint does not move the link
     from-the-link-on: your code uses the link's own joint and the joints distal to it.
-      Use the joints up to the link instead
+      Use joints 1 to `link` instead
     first-joint-left-out: your code sets the entry for joint 1 to 0. Include joint 1,
       because it moves every link
     own-joint-only: your code computes only the entry for the link's own joint. Include
-      all joints up to the link, because all of them move it
-    columns-before-dropped: your code uses the joints distal to the link. Use the joints
-      up to the link instead
+      joints 1 to `link`, because all of them move the link
+    columns-before-dropped: your code uses the joints distal to the link. Use joints 1
+      to `link` instead
     rotation-forgotten: your code uses v as the velocity of p. Add omega x p, because
       the velocity of p is v + omega x p
     rotation-only: your code uses omega x p as the velocity of p. Add v, because the
       velocity of p is v + omega x p
     cross-the-other-way: your code computes p x omega. Use omega x p instead, because
       the velocity of p is v + omega x p
-    normal-not-unit: your code does not normalise p - o. Divide p - o by its norm,
-      because otherwise the result contains the distance as a factor
-    normal-squared: your code divides p - o by the squared distance. Divide p - o by the
-      distance instead
+    normal-not-unit: your code does not normalise `p - o`. Divide `p - o` by its norm,
+      because otherwise the gradient contains an extra factor, the distance
+    normal-squared: your code divides `p - o` by the squared distance. Divide `p - o` by
+      the distance instead
     half: your code multiplies the gradient by 1/2. Omit this factor
     normal-of-p: your code uses the unit vector from the world origin to p. Use the unit
       vector from o to p instead
     normal-of-o: your code uses the unit vector from the world origin to o. Use the unit
       vector from o to p instead
     only-along-z: your code uses only the z component of the velocity of p. Project the
-      velocity onto the unit vector along p - o instead
+      velocity onto the unit vector along `p - o` instead
     not-projected: your code returns the speed of p for each joint. Return the component
-      of the velocity along p - o instead
+      of the velocity along `p - o` instead
     size-only: your code returns the absolute value of each entry. Keep the signs,
-      because a negative entry means that the distance decreases
-    parts-added: your code divides p - o by the sum of its absolute components. Divide
-      it by its norm instead
-    largest-part: your code divides p - o by its largest absolute component. Divide it
-      by its norm instead
-    two-directions: your code normalises p and o separately. Normalise p - o instead
+      because an entry is negative if the distance decreases as the joint angle
+      increases
+    parts-added: your code divides `p - o` by the sum of its absolute components. Divide
+      `p - o` by its norm instead
+    largest-part: your code divides `p - o` by its largest absolute component. Divide `p
+      - o` by its norm instead
+    two-directions: your code normalises p and o separately. Normalise `p - o` instead
     parts-summed: your code adds the absolute values of the velocity components. Project
-      the velocity onto the unit vector along p - o instead
+      the velocity onto the unit vector along `p - o` instead
     summed-up: your code returns cumulative sums over the joints. Return the derivative
-      for each joint alone
+      with respect to each joint angle separately
     one-place-early: your code places each entry one position too early. The first entry
       belongs to joint 1
     one-place-late: your code places each entry one position too late. The first entry

@@ -120,11 +120,11 @@ MORE = (
 def _(qd, grad, distance, gain):
     """always: your code also changes velocities that are already allowed. Return `qd`
       unchanged if it satisfies the condition
-    not-divided: your code does not divide the correction by `grad @ grad`. Divide it,
-      because the norm of `grad` need not be 1
+    not-divided: your code does not divide the correction by `grad @ grad`. Divide the
+      correction by this value, because the norm of `grad` need not be 1
     divided-by-the-length: your code divides the correction by the norm of `grad`.
-      Divide it by `grad @ grad` instead
-    pushed-in: your code subtracts the correction, so the arm moves nearer to the
+      Divide the correction by `grad @ grad` instead
+    pushed-in: your code subtracts the correction, so the arm moves towards the
       obstacle. Add the correction to `qd`, because the distance increases along `grad`
     all-joints-slowed: your code scales all joint velocities by one factor. Change only
       the component of `qd` along `grad`
@@ -134,16 +134,16 @@ def _(qd, grad, distance, gain):
       the part of the velocity that the condition allows
     stops-dead 2: your code returns 0 if the arm approaches the obstacle too fast, and
       also if `grad` is 0. Keep the part of the velocity that the condition allows
-    part-removed: your code removes the whole component along `grad`. Keep the part of
-      it that the bound allows
+    part-removed: your code removes the whole component of `qd` along `grad`. Keep the
+      part of this component that the bound allows
     sign-of-the-bound: your code uses `gain * distance` as the bound. The condition is
       `grad @ qd >= -gain * distance`
     distance-sign-lost: your code uses the absolute value of the distance. Keep the
       sign, because a negative distance should give a positive bound, which moves the
-      arm away
-    gain-forgotten: your code omits the gain in the bound. Use `-gain * distance` as the
-      bound
-    distance-forgotten: your code omits the distance in the bound. Use `-gain *
+      arm away from the obstacle
+    gain-forgotten: your code omits the gain from the bound. Use `-gain * distance` as
+      the bound
+    distance-forgotten: your code omits the distance from the bound. Use `-gain *
       distance` as the bound
     distance-over-gain: your code divides the distance by the gain. Multiply the
       distance by the gain instead
@@ -155,50 +155,53 @@ def _(qd, grad, distance, gain):
       bound to `grad @ qd`, the rate of change of the distance
     joint-by-joint 2: your code clamps each joint velocity to the bound. Apply the bound
       to `grad @ qd` instead, because the bound is a rate in m/s
-    largest-joint-only: your code changes only the joint with the largest entry of
-      `grad`. Change `qd` along `grad` instead, because this is the smallest change that
-      satisfies the bound
-    slope-unit: your code normalises `grad` in `grad @ qd`, but not in the bound. Use
-      `grad` itself in both
+    largest-joint-only: your code changes only the velocity of the joint with the
+      largest absolute entry of `grad`. Change `qd` along `grad` instead, because this
+      is the smallest change that satisfies the bound
+    slope-unit: your code normalises `grad`, but it does not divide the bound by the
+      norm of `grad`. Use `grad` itself instead
     only-inside: your code limits the velocity only if the distance is negative. Limit
       the velocity at every distance
-    standing-still: your code divides by 0 if `grad` is 0. Return `qd`
+    standing-still: your code divides by 0 if `grad` is 0. Return `qd` in this case
     part-alone: your code returns only the component along `grad`. Keep the other
       components of `qd` too
     left-where-it-overlaps: your code returns `qd` if the distance is not positive.
-      Apply the correction, which moves the arm away from the obstacle
+      Apply the correction in this case too, because it moves the arm away from the
+      obstacle
     stopped-where-it-overlaps: your code returns 0 if the distance is not positive.
-      Apply the correction, which moves the arm away from the obstacle
+      Apply the correction to `qd` instead, because it moves the arm away from the
+      obstacle
     no-way-out: your code clamps a negative distance to 0, so the arm does not move away
       from an obstacle that it overlaps. Use the negative distance
-    coming-near: your code changes every velocity towards the obstacle. Return `qd` if
-      the bound allows this approach
+    coming-near: your code changes every velocity towards the obstacle. Return `qd`
+      unchanged if it satisfies the bound
     by-the-sizes: your code compares the absolute values of `grad @ qd` and the bound.
       Keep the signs, because a fast motion away from the obstacle is allowed
     half-of-it: your code adds only half of the correction to `qd`. Add the whole
       correction
     twice-of-it: your code adds twice the correction to `qd`. Add the correction only
       once
-    one-joint-only: your code changes only the first joint. Change `qd` along `grad`
-      instead, because this is the smallest change that satisfies the bound
-    one-joint-only 2: your code changes only the joint whose motion reduces the distance
-      fastest. Change `qd` along `grad` instead, because this is the smallest change
-      that satisfies the bound
+    one-joint-only: your code changes only the velocity of the first joint. Change `qd`
+      along `grad` instead, because this is the smallest change that satisfies the bound
+    one-joint-only 2: your code changes only the velocity of the joint whose motion
+      reduces the distance fastest. Change `qd` along `grad` instead, because this is
+      the smallest change that satisfies the bound
     alike: your code adds the same correction to every joint. Make the correction
       proportional to `grad`
-    by-signs: your code adds a correction of the same size to every joint. Make the
+    by-signs: your code adds a correction of the same magnitude to every joint. Make the
       correction proportional to `grad`
-    a-seventh-each: your code adds a seventh of the correction to each joint. Make the
-      correction proportional to `grad`
+    a-seventh-each: your code corrects each joint velocity so that every joint
+      contributes a seventh of the change in `grad @ qd`. Make the correction
+      proportional to `grad`
     divided-by-the-sum: your code divides the correction by the sum of the entries of
-      `grad`. Divide it by `grad @ grad` instead
+      `grad`. Divide the correction by `grad @ grad` instead
     divided-by-the-largest: your code divides the correction by the square of the
-      largest entry of `grad`. Divide it by `grad @ grad` instead
-    divided-by-qd: your code divides the correction by `qd @ qd`. Divide it by `grad @
-      grad` instead
-    those-that-come-near: your code changes only the joints whose motion reduces the
-      distance. Change `qd` along the whole of `grad` instead, because this is the
-      smallest change that satisfies the bound
+      largest absolute entry of `grad`. Divide the correction by `grad @ grad` instead
+    divided-by-qd: your code divides the correction by `qd @ qd`. Divide the correction
+      by `grad @ grad` instead
+    those-that-come-near: your code changes only the velocities of the joints whose
+      motion reduces the distance. Change `qd` along the whole of `grad` instead,
+      because this is the smallest change that satisfies the bound
     those-that-come-near 2: your code stops the joints whose motion reduces the
       distance. Keep the part of their motion that the condition allows
     rate-added: your code adds `grad @ qd` to the bound. Subtract `grad @ qd` from the

@@ -34,8 +34,9 @@ def turned(angle, x, y):
 def _(theta, observation):
     """world-axes: your code adds the shift in the world frame. Rotate the shift by the
       yaw of the cube first, because the shift is expressed in the frame of the cube
-    turned-with-the-hand: your code rotates the shift by the yaw of the hand. Rotate it
-      by the yaw of the cube, because the shift is expressed in the frame of the cube
+    turned-with-the-hand: your code rotates the shift by the yaw of the hand. Rotate the
+      shift by the yaw of the cube, because the shift is expressed in the frame of the
+      cube
     clipped-after: your code clamps the action instead of `theta`. Clamp `theta` before
       you use it
     clipped-below-only: your code clamps `theta` at `LOW`, but not at `HIGH`. Clamp
@@ -51,7 +52,7 @@ def _(theta, observation):
     opening-and-height-swapped: your code swaps the height and the opening. Use the
       order (x, y, yaw, height, opening, lift)
     lift-from-the-floor: your code adds the height to the lift. Return the lift itself,
-      because it does not depend on the height
+      because the lift does not depend on the height
     """
     t = np.clip(theta, LOW, HIGH)
     right = act(theta, observation)

@@ -58,35 +58,35 @@ def of_best(samples, best):
 
 @row.wrongs(hidden={"nan-is-zero": "no NaN of the lab has a score below 0 beside it"})
 def _(mean, std, noise, scores, elite):
-    """nan-first: your elite contains a sample with the score NaN. Sort -scores with
-      `np.argsort`, which puts NaN last, instead of reversing the order
-    nan-first 2: your elite contains a sample with the score NaN. Sort -scores with
-      `np.argsort`, which puts NaN last, instead of reversing the order
-    nan-first 3: your elite contains a sample with the score NaN, and your order of
+    """nan-first: your elite contains a sample whose score is NaN. Sort `-scores` with
+      `np.argsort`, which puts NaN last
+    nan-first 2: your elite contains a sample whose score is NaN. Sort `-scores` with
+      `np.argsort`, which puts NaN last
+    nan-first 3: your elite contains a sample whose score is NaN, and your order of
       equal scores is reversed. Use `np.argsort(-scores, kind='stable')`, which puts NaN
-      last
-    ties-last-first: your code keeps the last of several equal scores. Keep the first of
-      them instead
+      last and keeps the order of equal scores
+    ties-last-first: among samples with equal scores, your code prefers the last ones.
+      Prefer the first ones instead
     std-kept: your code returns `std` unchanged. Return the standard deviation of the
       elite
-    n-minus-one: your code divides by elite - 1 in the standard deviation. Divide by
-      elite instead
+    n-minus-one: your code divides by `elite - 1` in the standard deviation. Divide by
+      `elite` instead
     about-the-old-mean: your code takes the standard deviation about the old mean. Take
-      it about the mean of the elite instead
+      the standard deviation about the mean of the elite instead
     one-spread-for-all: your code returns the same standard deviation for all
       parameters. Compute one for each parameter, with `axis=0`
-    best-left-out: your code begins the elite with the second best sample. Include the
-      best sample
+    best-left-out: your code omits the best sample and begins the elite with the
+      second-best one. Include the best sample
     nan-is-zero: your code treats NaN as a score of 0. Treat NaN as worse than all other
       scores
-    elite-one-less: your code uses an elite with one sample too few. Does a slice in
-      your code end too early?
+    elite-one-less: your elite contains one sample too few. Does a slice in your code
+      end too early?
     weighted: your code weights the elite samples by their rank. Give all elite samples
       the same weight
     weighted 2: your code weights the elite samples by their scores. Give all elite
       samples the same weight
-    weighted 3: your code weights the mean by the scores. Give all elite samples the
-      same weight
+    weighted 3: your code weights the elite samples by their scores in the mean. Give
+      all elite samples the same weight
     median: your code returns the median of the elite. Return the mean of the elite
       instead
     halves-swapped: your code swaps the mean and the standard deviation. Return the mean

@@ -91,30 +91,30 @@ IN_ONE_UNIT = "all rows and weights of the lab are of similar size"
 )
 def _(W, weights):
     """rank-only: your code tests only the rank. Test the weights and W w = 0 too,
-      because the rank is 6 even if all fingers press on one face
-    balance-only: your code does not test the rank. Test that the rank is 6, because
-      balanced forces of two fingers do not prevent a rotation about the line through
-      them
+      because the rank can be 6 even if all fingers press on one face
+    balance-only: your code does not test the rank. Test that the rank is 6, because two
+      fingers whose forces balance do not prevent a rotation about the line through the
+      two contacts
     balance-and-rank-5: your code accepts rank 5. Require rank 6, because a wrench has
       six components
     zero-weights-do: your code accepts a weight of 0. Require every weight to be above 0
     sign-forgotten: your code accepts weights below 0. Require every weight to be above
       0, because a finger cannot pull
-    some-weight-above-0: your code accepts the weights if at least one is above 0.
-      Require every weight to be above 0
+    some-weight-above-0: your code accepts the weights if at least one weight is above
+      0. Require every weight to be above 0
     balance-forgotten: your code does not test the condition W w = 0. Test this
       condition too, because the wrenches must balance
     balance-absolute: your code uses an absolute tolerance for W w, as in `np.allclose(W
-      @ weights, 0)`. Use 1e-9 times the sum of |W_ij w_j| in each row, so that the
-      result does not depend on the units
+      @ weights, 0)`. For each row, use 1e-9 times the sum of |W_ij w_j| in that row, so
+      that the result does not depend on the units
     balance-roughly: your code uses a tolerance of 1e-4 times the sum of |W_ij w_j| for
       W w. Use 1e-9 times this sum instead
     balance-of-all: your code uses one tolerance for all rows of W w. Compare each row
       with 1e-9 times its own sum of |W_ij w_j| instead
     first-row-only: your code tests only the first row of W w. Test all six rows
     balance-without-weights: your code uses 1e-9 times the largest absolute entry of
-      each row of W as the tolerance. Use 1e-9 times the sum of |W_ij w_j| in this row
-      instead
+      each row of W as the tolerance. For each row, use 1e-9 times the sum of |W_ij w_j|
+      in that row instead
     rank-absolute: your code compares the singular values with 1e-9. Compare them with
       1e-9 times the largest one, so that the result does not depend on the units
     determinant: your code tests the rank with det(W W^T). Compare the singular values
@@ -123,14 +123,14 @@ def _(W, weights):
       tolerance, because rounding leaves about 1e-16 even if the forces balance
     rank-by-rounding: your code uses NumPy's default tolerance for the rank. Use 1e-9
       times the largest singular value instead
-    weights-not-used: your code adds the columns of W without their weights. Test W w
+    weights-not-used: your code tests the unweighted sum of the columns of W. Test W w
       instead
     forces-only: your code tests only the forces in W w. Test the moments too, because
       both must balance
     moments-only: your code tests only the moments in W w. Test the forces too, because
       both must balance
-    sum-of-all: your code adds all components of W w, so positive and negative
-      components cancel. Test each component separately
+    sum-of-all: your code tests only the sum of all components of W w, so positive and
+      negative components cancel. Test each component separately
     always-true: your code always returns True. Test the rank, the weights and W w
     always-false: your code always returns False. Test the rank, the weights and W w
     """

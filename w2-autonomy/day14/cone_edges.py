@@ -42,34 +42,38 @@ def edges(n, mu, k, axis=None, *, a=None, t=None):
 
 @row.wrongs
 def _(normal, mu, k):
-    """axis-x: your code always uses n x (1, 0, 0) for `a`. Use the coordinate axis with
-      the smallest absolute component of n, and the first of equal ones
-    axis-z: your code always uses n x (0, 0, 1) for `a`. Use the coordinate axis with
-      the smallest absolute component of n, and the first of equal ones
-    axis-z 2: your code always uses n x (0, 0, 1) for `a`. Use the coordinate axis with
-      the smallest absolute component of n, and the first of equal ones
-    last-of-equals: your code uses the last coordinate axis if several absolute
-      components of n are equally small. Use the first of these axes instead
-    largest-axis: your code uses the coordinate axis with the largest absolute component
-      of n. Use the axis with the smallest absolute component instead
-    signed-least: your code uses the coordinate axis with the smallest signed component
-      of n. Compare the absolute values instead
+    """axis-x: your code always uses n x (1, 0, 0) for `a`. Instead of (1, 0, 0), use
+      the coordinate axis along which n has the smallest absolute component, and the
+      first such axis if there are several
+    axis-z: your code always uses n x (0, 0, 1) for `a`. Instead of (0, 0, 1), use the
+      coordinate axis along which n has the smallest absolute component, and the first
+      such axis if there are several
+    axis-z 2: your code always uses n x (0, 0, 1) for `a`. Instead of (0, 0, 1), use the
+      coordinate axis along which n has the smallest absolute component, and the first
+      such axis if there are several
+    last-of-equals: your code uses the last coordinate axis if several components of n
+      have the same smallest absolute value. Use the first of these axes instead
+    largest-axis: your code uses the coordinate axis along which n has the largest
+      absolute component. Use the axis with the smallest absolute component instead
+    signed-least: your code uses the coordinate axis along which n has the smallest
+      signed component. Compare the absolute values of the components instead
     axis-x-n: your code uses axis x n for `a`. Use n x axis instead, because otherwise
-      the edges begin on the opposite side
+      the first edge lies on the opposite side
     axis-itself: your code uses the projection of the axis onto the tangent plane for
       `a`. Use n x axis instead, which is perpendicular to this projection
     last-is-first: your code ends with t = 2 pi, so the last edge is equal to the first.
-      End with t = 2 pi (k - 1) / k instead
+      End with `t = 2 pi (k - 1) / k` instead
     degrees: your code uses t in degrees. Use t = 2 pi i / k instead, because `np.cos`
       and `np.sin` expect radians
     from-one: your code begins with i = 1. Begin with i = 0 instead
     mu-on-the-normal: your code multiplies the normal by mu. Multiply the tangential
       part by mu instead
-    half-steps: your code shifts t by half a step. Use t = 0 for the first edge
+    half-steps: your code shifts t by half the spacing between edges. Use t = 0 for the
+      first edge
     length-1: your code normalises the edges. Omit this step, because the component of
       each edge along the normal should be 1
-    mu-is-an-angle: your code uses mu as the angle of the cone. Use mu itself, because
-      the coefficient of friction is already the tangent of this angle
+    mu-is-an-angle: your code uses mu as the half-angle of the cone. Use mu itself,
+      because the coefficient of friction is already the tangent of this angle
     normal-left-in-mu: your code also multiplies the normal by mu. Multiply only the
       tangential part by mu
     in-columns: your code returns one edge in each column. Return one edge in each row

@@ -37,8 +37,8 @@ def _(force, normal, mu):
       component of the force along the normal instead
     one-length-for-all: your code takes a single norm over the tangential forces of all
       contacts. Take the norm of each contact's tangential force instead, with `axis=1`
-    mu-is-an-angle: your code uses mu as the angle of the cone. Use mu itself, because
-      the coefficient of friction is already the tangent of this angle
+    mu-is-an-angle: your code uses mu as the half-angle of the cone. Use mu itself,
+      because the coefficient of friction is already the tangent of this angle
     normal-is-z 3: your code uses the z component of the force as f_n. Use the component
       along the contact's own normal instead
     normal-is-z: your code uses the normal (0, 0, 1) for every contact. Use each
@@ -60,8 +60,8 @@ def _(force, normal, mu):
       positive f_n, because the normal points out of the finger into the cube
     margin-of-the-first: your code returns the margin of the first contact for every
       contact. Return each contact's own margin
-    over-the-cone: your code returns the distance from the surface of the cone. Omit the
-      division by sqrt(1 + mu^2)
+    over-the-cone: your code returns the distance to the surface of the cone. Omit the
+      division by `sqrt(1 + mu^2)`
     """
     press = np.sum(force * normal, axis=1)
     along = force - press[:, None] * normal

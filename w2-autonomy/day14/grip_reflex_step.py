@@ -79,21 +79,21 @@ def _(rng):
 @row.wrongs(hidden={"at-the-line": "no margin of the lab is exactly at the limit"})
 def _(finger_position, force, normal, mu, fraction, step):
     """all-must-slip: your code closes the pads only if all contacts nearly slip. Close
-      them if at least one contact nearly slips
+      the pads if at least one contact nearly slips
     at-the-line: your code also closes the pads if a margin is equal to `fraction * mu *
-      f_n`. Close them only if a margin is below this value
+      f_n`. Close the pads only if a margin is below this value
     one-minus-the-share: your code compares the margin with `(1 - fraction) * mu * f_n`.
       Compare the margin with `fraction * mu * f_n` instead
     high-for-low: your code uses `HIGH[4]` as the limit of the finger position, so the
       pads open. Use `LOW[4]` instead
     smaller-for-larger: your code returns the smaller of the new position and `LOW[4]`.
       Return the larger of the two instead
-    always: your code closes the pads in every call. Close them only if a contact nearly
-      slips
+    always: your code closes the pads in every call. Close the pads only if a contact
+      nearly slips
     share-in-newtons: your code compares the margin with `fraction`. Compare the margin
       with `fraction * mu * f_n` instead, because the margin is in newtons
-    share-of-the-force: your code compares the margin with a fraction of the norm of the
-      force. Compare the margin with `fraction * mu * f_n` instead
+    share-of-the-force: your code compares the margin with `fraction` times the norm of
+      the force. Compare the margin with `fraction * mu * f_n` instead
     share-of-the-force 2: your code uses the norm of the force as f_n in `fraction * mu
       * f_n`. Use the component of the force along the normal instead
     stopped-at-0: your code clamps the finger position at 0. Clamp it at `LOW[4]`
@@ -101,9 +101,9 @@ def _(finger_position, force, normal, mu, fraction, step):
     stopped-too-early: your code omits a step that would go beyond `LOW[4]`. End this
       step at `LOW[4]` instead
     outside-only: your code closes the pads only if a margin is below 0, where the
-      contact already slips. Close them if a margin is below `fraction * mu * f_n`
+      contact already slips. Close the pads if a margin is below `fraction * mu * f_n`
     the-other-way: your code closes the pads if a margin is above `fraction * mu * f_n`.
-      Close them if a margin is below this value
+      Close the pads if a margin is below this value
     closes-to-the-limit: your code moves the pads to their closed limit in a single
       call. Subtract only one `step` from the finger position in each call
     a-step-a-contact: your code subtracts one step for each contact that nearly slips.

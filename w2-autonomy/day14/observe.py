@@ -73,7 +73,7 @@ def _(T_seen, noise):
     arcsine: your code uses arcsin(R[1, 0]) as the yaw, which covers only [-pi/2, pi/2].
       Use `np.arctan2(R[1, 0], R[0, 0])` instead
     noise-in-the-cubes-axes: your code adds the noise along the axes of the cube. Add
-      the noise along the x and y axes of the world frame
+      the noise along the x and y axes of the world frame instead
     x-and-y-swapped: your code swaps x and y. Return them in the order (x, y, yaw)
     yaw-first: your code returns the yaw first. Use the order (x, y, yaw)
     """

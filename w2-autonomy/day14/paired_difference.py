@@ -24,18 +24,18 @@ def _(first, second):
     """unpaired: your code adds the variances of the two policies, as for independent
       samples. Use the standard deviation of the differences, because both policies ran
       on the same cubes
-    n-minus-one: your code divides by n - 1 in the standard deviation. Divide by n
+    n-minus-one: your code divides by `n - 1` in the standard deviation. Divide by n
       instead
-    n-minus-one 2: your code divides by sqrt(n - 1) in the standard error. Divide by
-      sqrt(n) instead
-    root-of-the-mean-square: your code takes the standard deviation about 0. Take it
-      about the mean difference instead
+    n-minus-one 2: your code divides by `sqrt(n - 1)` in the standard error. Divide by
+      `sqrt(n)` instead
+    root-of-the-mean-square: your code takes the standard deviation about 0. Take the
+      standard deviation about the mean difference instead
     interval: your code returns 1.96 standard errors as the second result. Return one
       standard error instead
-    which-differ: your code returns the fraction of cubes on which the two policies
-      differ as the first result. Return the mean difference instead
-    sorted: your code sorts both lists, so it loses the pairs. Keep the order of the
-      lists
+    which-differ: your first result is the fraction of cubes on which the outcomes of
+      the two policies differ. Return the mean difference instead
+    sorted: your code sorts both lists, which destroys the pairing. Keep the order of
+      the lists
     """
     a = np.asarray(first, float)
     b = np.asarray(second, float)

@@ -68,7 +68,7 @@ def _(heights, target, cap):
     halved: your code returns -1 for a cube on the floor. The reward should rise from 0
       on the floor to 1 at the target
     one-minus: your code returns 1 minus the reward. Return the reward itself
-    nothing-lost: your code omits episodes with a height of NaN or above the cap. Return
+    nothing-lost: your code omits episodes whose height is NaN or above the cap. Return
       a reward of -1 for each of these episodes
     """
     h = heights

@@ -32,19 +32,19 @@ def _(success):
     middle-for-rate: your code returns the centre of the interval as the rate. Return
       the fraction of successes instead
     order: your code returns the interval first. Use the order (rate, low, high)
-    ends-swapped: your code swaps the two ends of the interval. Use the order (rate,
-      low, high)
-    half-width: your code returns the distances of the ends from the rate as the last
-      two results. Return the ends themselves instead
+    ends-swapped: your code swaps the two endpoints of the interval. Use the order
+      (rate, low, high)
+    half-width: your last two results are the distances from the rate to the endpoints
+      of the interval. Return the endpoints themselves instead
     failures: your code computes the interval from the number of failures. Use the
       number of successes instead
     one-sided: your code uses z = 1.645, which gives a 90 % interval. Use z = 1.96 for a
       95 % interval
     ninety-nine: your code uses z = 2.576, which gives a 99 % interval. Use z = 1.96 for
       a 95 % interval
-    n-less-one: your code divides by n - 1 in the rate and in both ends of the interval.
-      Divide by n instead, the number of trials
-    per-cent: your code returns per cent. Return fractions instead
+    n-less-one: your code divides by `n - 1` in the rate and in both endpoints of the
+      interval. Divide by n, the number of trials, instead
+    per-cent: your code returns percentages. Return fractions instead
     """
     won = np.asarray(success, float)
     n = len(won)

@@ -66,18 +66,18 @@ def closest_points_segments(
     # region 11.1
     u = a1 - a0  # direction of the first segment
     v = b1 - b0  # direction of the second segment
-    w = a0 - b0  # the vector from the second start to the first
+    w = a0 - b0  # the vector from the second start point to the first
     a = u @ u  # squared length of the first segment
     b = u @ v  # coupling of s and t
     c = v @ v  # squared length of the second segment
     d = u @ w  # half of the linear coefficient of s
-    e = v @ w  # half of the negative linear coefficient of t
-    across = a * c - b * b  # a c sin^2 of the angle between the segments
+    e = v @ w  # half of the negated linear coefficient of t
+    across = a * c - b * b  # determinant of the equations for s and t
     s = (  # the minimiser over both lines, clamped to the first segment
         np.clip((b * e - c * d) / across, 0, 1) if across > 1e-12 * a * c else 0.0
     )
-    t = np.clip((b * s + e) / c, 0, 1) if c > 0 else 0.0  # minimiser for this s
-    s = np.clip((b * t - d) / a, 0, 1) if a > 0 else 0.0  # minimiser for this t
+    t = np.clip((b * s + e) / c, 0, 1) if c > 0 else 0.0  # the best t for this s
+    s = np.clip((b * t - d) / a, 0, 1) if a > 0 else 0.0  # the best s for this t
     return np.array([a0 + s * u, b0 + t * v])  # the closest points
     # endregion 11.1
 
@@ -134,11 +134,11 @@ def capsule_box_distance(
     """
     # region 11.4
     R = T_world_box[:3, :3]  # rotation of the box
-    start = R.T @ (a0 - T_world_box[:3, 3])  # start of the axis in the box frame
+    start = R.T @ (a0 - T_world_box[:3, 3])  # start point in the box frame
     way = R.T @ (a1 - a0)  # direction of the axis in the box frame
     low = 0.0  # lower end of the interval that contains the minimum
     high = 1.0  # upper end of the interval
-    for _ in range(60):  # the passes of the golden-section search
+    for _ in range(60):  # the iterations of the golden-section search
         left = high - 0.618 * (high - low)  # the sample at 0.382 of the interval
         right = low + 0.618 * (high - low)  # the sample at 0.618 of the interval
         if box_sdf(start + left * way, half_extents) < box_sdf(
@@ -212,9 +212,9 @@ def distal_radii(link_lengths: np.ndarray, link_radii: np.ndarray) -> np.ndarray
     distal_radii((1, 1, 0), (0.5, 0.5, 0.5)) -> (2.5, 1.5, 0.5)
     """
     # region 11.7
-    reach = np.array(link_radii)  # the farthest point of the joint's own link
+    reach = np.array(link_radii)  # the radius of the joint's own link
     for i in range(len(link_radii) - 2, -1, -1):  # the joints, from the last but one
-        reach[i] = max(  # the larger of the own radius and the distal bound
+        reach[i] = max(  # the larger of the link's own radius and the distal bound
             link_radii[i], link_lengths[i] + reach[i + 1]
         )
     return reach  # the distal radii

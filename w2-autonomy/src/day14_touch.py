@@ -134,7 +134,7 @@ def cone_edges(normal: np.ndarray, mu: float, k: int) -> np.ndarray:
     axis = np.eye(3)[np.argmin(np.abs(normal))]  # coordinate axis furthest from n
     a = np.cross(normal, axis)  # a vector perpendicular to n
     a = a / np.linalg.norm(a)  # first tangent
-    b = np.cross(normal, a)  # second tangent, perpendicular to both
+    b = np.cross(normal, a)  # second tangent
     t = 2 * np.pi * np.arange(k)[:, None] / k  # angles of the edges
     return normal + mu * (np.cos(t) * a + np.sin(t) * b)  # the edges of the cone
     # endregion 14.3
@@ -170,12 +170,12 @@ def observe(T_seen: np.ndarray, noise: np.ndarray) -> np.ndarray:
     """
     # region 14.5
     x, y = T_seen[:2, 3]  # position of the cube
-    yaw = np.arctan2(T_seen[1, 0], T_seen[0, 0])  # angle of its x axis
+    yaw = np.arctan2(T_seen[1, 0], T_seen[0, 0])  # yaw of the cube
     x, y, yaw = np.array([x, y, yaw]) + noise  # the measured position and yaw
     return np.array([
         x,
         y,
-        (yaw + np.pi / 4) % (np.pi / 2) - np.pi / 4,  # the yaw within 45 degrees
+        (yaw + np.pi / 4) % (np.pi / 2) - np.pi / 4,  # the reduced yaw
     ])  # fmt: skip
     # endregion 14.5
 
@@ -213,7 +213,7 @@ def reward(heights: np.ndarray, target: float, cap: float) -> np.ndarray:
     0.2, 0.9, nan, -0.01) with 0.05 and 0.3: (0.2, 1, 1, -1, -1, 0).
     """
     # region 14.6
-    worth = np.clip(heights, 0, target) / target  # the reward of the height, 0 to 1
+    worth = np.clip(heights, 0, target) / target  # the reward for the height, 0 to 1
     good = np.isfinite(heights) & (heights <= cap)  # the finite heights up to the cap
     return np.where(good, worth, -1.0)  # reward of each episode
     # endregion 14.6
@@ -264,7 +264,7 @@ def paired_difference(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     apart = np.asarray(first, float) - np.asarray(second, float)  # the differences
     return np.array([
         apart.mean(),  # the mean difference
-        apart.std() / np.sqrt(len(apart)),  # its standard error
+        apart.std() / np.sqrt(len(apart)),  # the standard error
     ])  # fmt: skip
     # endregion 14.9
 
