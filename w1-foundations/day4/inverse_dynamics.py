@@ -103,8 +103,8 @@ def _(J, G, qd, qdd, g):
       G V as well, because G changes when the link moves
     velocity-of-the-link-before: your code computes each link's wrench before it adds
       the velocity of the link's own joint to V. Add this velocity first
-    summed-from-the-base: your code sums the wrenches on the links from the base to the
-      joint's own link. Sum the wrenches on the links from the joint's own link to the
+    summed-from-the-base: for each joint, your code sums the wrenches on the links from
+      the base up to that joint's link. Sum the wrenches from that joint's link to the
       tip instead, because the joint carries these links
     every-link-for-all: your code includes the wrenches on all seven links in every
       torque. Include only the wrenches on the links that the joint carries: its own

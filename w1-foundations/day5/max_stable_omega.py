@@ -23,7 +23,7 @@ def _(h):
     larger-root: your code returns the absolute value of the negative root of the
       quadratic equation. Return the positive root instead
     nyquist: your code returns the Nyquist frequency pi / h, which is not a stability
-      limit. Return the omega at which the matrix of the step has an eigenvalue of -1
+      limit. Return the omega at which the step matrix has an eigenvalue of -1
     in-hertz: your code returns the limit in Hz. Return the limit in rad/s instead
     """
     return {

@@ -164,8 +164,8 @@ for slug, says, other in (
 def _(K, p_cam):
     """fx-in-both-rows: your code uses fx in the row for v. Use fy instead, which is
       K[1, 1]
-    fx-in-both-rows 2: your code uses fx in the row for v, but only in the columns for
-      omega. Use fy instead, which is K[1, 1]
+    fx-in-both-rows 2: in the row for v, your code uses fx in the columns for omega. Use
+      fy there too, as in the other columns. It is K[1, 1]
     fy-in-both-rows: your code uses fy in the row for u. Use fx instead, which is K[0,
       0]
     coordinates-not-divided: your code uses x and y in metres in the formula for

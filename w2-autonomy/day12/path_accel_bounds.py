@@ -207,14 +207,16 @@ def _(a, b, c, limits, sd):
       0 exceeds its limit. Return the lower bound first
     none-sorted: your code sorts the bounds if no sdd is permitted. Leave the lower
       bound above the upper bound
-    none-sorted 2: your code sorts the bounds if the joints permit no common sdd. Leave
-      the lower bound above the upper bound
+    none-sorted 2: your code swaps the bounds if the joints permit no common sdd. Return
+      them unswapped, because a lower bound above the upper bound means that no sdd is
+      permitted
     none-is-zero: your code returns (0, 0) if no sdd is permitted, although this result
-      permits sdd = 0. Leave the lower bound above the upper bound
+      permits sdd = 0. Return the bounds unchanged, with the lower bound above the upper
+      bound
     none-is-zero 2: your code returns (0, 0) if a joint with `a` = 0 exceeds its limit,
       although this result permits sdd = 0. Return (inf, -inf) instead
     none-is-one: your code reduces the lower bound to the upper bound if no sdd is
-      permitted. Leave the lower bound above the upper bound
+      permitted. Return the bounds unchanged, with the lower bound above the upper bound
     zero-stops-all: your code returns an empty interval for a joint with `a` = 0 within
       its torque limit. Skip such a joint, because it does not limit sdd
     zero-row-ignored: your code ignores a joint with `a` = 0 that exceeds its torque
@@ -250,7 +252,8 @@ def _(a, b, c, limits, sd):
     first-left-out: your code skips the first joint. Use all joints, because every joint
       can limit sdd
     none-is-zero 3: your code returns (0, 0) if the joints permit no common sdd,
-      although this result permits sdd = 0. Leave the lower bound above the upper bound
+      although this result permits sdd = 0. Return the bounds unchanged, with the lower
+      bound above the upper bound
     none-is-infinite: your code returns (inf, -inf) if the joints permit no common sdd.
       Return the computed bounds instead, because (inf, -inf) is reserved for a joint
       with `a` = 0 beyond its limit

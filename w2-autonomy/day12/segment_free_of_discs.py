@@ -213,12 +213,12 @@ def _others(a, b, discs, part, away):
 def _(a, b, discs):
     """line-for-segment: your code does not clamp the parameter of the nearest point.
       Clamp it to [0, 1], because otherwise a disc beyond an endpoint can block the edge
-    only-one-end-cut: your code does not clamp the parameter of the nearest point if it
-      is negative. Clamp the parameter to [0, 1], because it is 0 at `a`, where the edge
-      begins
+    only-one-end-cut: your code does not clamp the parameter of the nearest point if
+      this parameter is negative. A negative parameter belongs to a point before `a`,
+      where the edge begins, so clamp the parameter to [0, 1]
     only-one-end-cut 2: your code does not clamp the parameter of the nearest point if
-      it is above 1. Clamp the parameter to [0, 1], because it is 1 at `b`, where the
-      edge ends
+      this parameter is above 1. Such a parameter belongs to a point beyond `b`, where
+      the edge ends, so clamp the parameter to [0, 1]
     ends-only: your code tests only the endpoints of the edge. Test the whole edge,
       because it can cross a disc between its endpoints
     new-end-only: your code tests only the endpoint `b`. Test the whole edge

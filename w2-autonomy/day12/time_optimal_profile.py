@@ -137,7 +137,7 @@ def _(a, b, c, limits, sd2_max):
       Pass sd instead
     most-of-the-point-before: in the forward pass, your code limits sd^2 at point i + 1
       by the maximum at point i. Use the maximum at point i + 1 instead
-    no-speed-limit: your code omits `sd2_max`. Limit sd^2 to `sd2_max` in both passes,
+    no-speed-limit: your code ignores `sd2_max`. Limit sd^2 to `sd2_max` in both passes,
       because the joint velocities are limited
     speed-limit-forwards-only: your code clamps sd^2 to `sd2_max` only after the two
       passes. Use `sd2_max` inside both passes, because the motion must slow down before

@@ -279,9 +279,9 @@ def _(H, f, lo, hi, x):
       the submatrix of H for the free entries instead
     gradient-steps: your code stops after 100 clamped gradient steps, which have not
       converged. Repeat the steps until x no longer changes
-    gradient-steps 2: your code uses the fixed step size 0.1 for clamped gradient steps,
-      which do not converge for every H. Use the reciprocal of the largest eigenvalue of
-      H instead
+    gradient-steps 2: your code takes clamped gradient steps with a fixed step size of
+      0.1. With this step size, the iteration does not converge for every H. Use the
+      reciprocal of the largest eigenvalue of H instead
     diagonal-hessian 2: your code divides the gradient by the diagonal of H. Solve with
       the submatrix of H for the free entries instead
     gradient-steps 3: your code stops after 1,000 clamped gradient steps, which have not

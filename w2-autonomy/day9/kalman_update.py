@@ -105,7 +105,7 @@ for slug, says, other in (
      {"nis": lambda y, S, known: weighed(y, known[2])}),
     ("nis-without-R",
      "your code computes the NIS with (H P H^T)^-1. Use S^-1 instead, because the "
-     "innovation also contains the noise of the reading",
+     "innovation also contains the measurement noise",
      {"nis": lambda y, S, known: weighed(y, known[1] @ known[0] @ known[1].T)}),
     ("nis-after", "your code computes the NIS from the residual z - H x with the "
                   "updated x. Use the innovation instead, which is z - H x with the "

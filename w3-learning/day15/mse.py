@@ -37,7 +37,7 @@ def _(pred, target):
     divided-by-rows: your code divides the gradient by the number of rows only. Divide
       the gradient by n * m, because the loss is the mean over n rows and m columns
     half: your loss and its gradient contain an extra factor of 1/2. Omit this factor,
-      because the loss of this task is the mean of the squared errors
+      because the loss in this task is the mean of the squared errors
     """
     e = pred - target
     n = len(e)

@@ -89,8 +89,8 @@ def _(action, episode, K):
       episode. Set these entries to 0. Your mask is correct
     wraps 2: your code fills the entries after the last row of the data with actions of
       the first rows. Set these entries and their mask to 0 instead
-    last-row-dropped: your code omits the action of an episode's last row from the
-      chunks. Include this action, because the row belongs to the episode
+    last-row-dropped: your chunks omit the action in the last row of each episode.
+      Include this action, because the row belongs to the episode
     last-row-dropped 2: your mask is 0 for the action of an episode's last row. The mask
       should be 1 for this entry, because the action exists
     only-entry-0: your code fills only entry 0 of each chunk. Fill entry j of chunk i

@@ -39,11 +39,11 @@ def _(T):
     no-cap: your code does not limit beta, so abar is about 0 at the noisiest level.
       Limit beta to at most 0.999, because a sampler divides by the square root of abar
     from-level-0: your code computes abar at level t as f(t) / f(0), so level 0 has no
-      noise. Multiply the factors 1 - beta of levels 0 to t instead. Level t itself also
-      adds noise, so the product should include 1 - beta of level t
+      noise. Multiply the factors 1 - beta for levels 0 to t instead, including level t,
+      because this level adds noise too
     from-level-0 2: your code uses f(t) as abar at level t, so level 0 has almost no
-      noise. Multiply the factors 1 - beta of levels 0 to t instead. Level t itself also
-      adds noise, so the product should include 1 - beta of level t
+      noise. Multiply the factors 1 - beta for levels 0 to t instead, including level t,
+      because this level adds noise too
     betas: your function returns beta, the fraction of the power that each level
       removes. Return the product of the factors 1 - beta of levels 0 to t instead
     beta-of-the-start: your code computes beta as f(t) - f(t + 1). Divide this

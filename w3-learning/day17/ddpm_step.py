@@ -42,7 +42,7 @@ def _(x, eps, abar, prev, noise):
       Draw from the distribution given both x and the clean sample instead. The mean of
       this distribution is a weighted sum of x and the clean sample
     as-ddim: your code adds the fresh noise to the result of `ddim_step`. Add this noise
-      to the mean given x and the clean sample instead. This mean is a weighted sum of x
+      to the conditional mean of the next sample instead, which is a weighted sum of x
       and the clean sample
     alpha-inverted: your code uses prev / abar as alpha, so alpha is greater than 1. Use
       abar / prev instead, because alpha is the factor by which the data's power falls

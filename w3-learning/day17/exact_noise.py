@@ -41,8 +41,8 @@ def _(x, abar, means, sigma, weights):
     x-not-deviation: your code multiplies x itself by sqrt(1 - abar) / variance.
       Multiply the mean deviation of x from the noisy means by this factor instead.
       Weight the deviations by the probabilities of the modes given x
-    nearest-mode: your code uses only the mode nearest to each row. Return the mean
-      noise over all modes, weighted by the probabilities of the modes given x
+    nearest-mode: for each row of x, your code uses only the nearest mode. Return the
+      mean noise over all modes, weighted by the probabilities of the modes given x
     nearest-mode 2: your code assigns each row only to its most probable mode. Return
       the mean noise over all modes, weighted by the probabilities of the modes given x
     weights-only: your code uses the weights of the modes as their probabilities given

@@ -46,8 +46,8 @@ def _(x, t, means, sigma, weights):
       Return the mean velocity instead, which is the mean of `data - noise` given x
     division-by-0 2: your code divides by t, which is 0 at t = 0. Use the formula for
       the conditional mean instead, which divides only by the variance of x in each mode
-    nearest-mode: your code uses only the mode nearest to each row. Return the mean
-      velocity over all modes, weighted by the probabilities of the modes given x
+    nearest-mode: for each row of x, your code uses only the nearest mode. Return the
+      mean velocity over all modes, weighted by the probabilities of the modes given x
     nearest-mode 2: your code assigns each row only to its most probable mode. Return
       the mean velocity over all modes, weighted by the probabilities of the modes given
       x

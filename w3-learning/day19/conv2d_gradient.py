@@ -114,7 +114,7 @@ def _(image, kernel, stride, d):
       of an output with respect to a pixel is an entry of the kernel
     kernel-for-kernel: your code adds d times the kernel to the gradient with respect to
       the kernel. Add d times the window instead, because the derivative of an output
-      with respect to an entry of the kernel is a pixel
+      with respect to an entry of the kernel is the corresponding pixel in the window
     """
     seen = windows(image, kernel, stride)
     of_kernel = np.einsum("ijab,ij->ab", seen, d)

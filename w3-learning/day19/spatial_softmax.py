@@ -27,8 +27,8 @@ row = Row(
         ),
         HeldOut(
             "not-for-minus-infinity",
-            "Your function is correct for finite entries, but not for entries of "
-            "-inf. Such an entry should have the weight 0. Do not replace -inf, "
+            "Your function is correct for finite entries, but not for entries equal "
+            "to -inf. Such an entry should have weight 0. Do not replace -inf, "
             "because exp(-inf) is 0.",
             dark_maps,
         ),
@@ -62,8 +62,8 @@ row.cases(
 
 @row.wrongs
 def _(maps, xs, ys, temperature):
-    """rows-only: your weights sum to 1 in each row of a map. All weights of a map
-      together should sum to 1, so divide by the sum over rows and columns instead
+    """rows-only: your weights sum to 1 in each row of a map. The weights should sum to
+      1 over the whole map, so divide by the sum over rows and columns instead
     maps-together: your weights sum to 1 over all maps together. Each map is a separate
       channel, so the weights of each map should sum to 1
     argmax: your function returns the position of the largest entry. Return the expected

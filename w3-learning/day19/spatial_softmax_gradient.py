@@ -28,8 +28,8 @@ row = Row(
         ),
         HeldOut(
             "not-for-minus-infinity",
-            "Your function is correct for finite entries, but not for entries of "
-            "-inf. Such an entry has the weight 0, so its gradient should be 0.",
+            "Your function is correct for finite entries, but not for entries equal "
+            "to -inf. Such an entry has weight 0, so its gradient should be 0.",
             lambda rng: with_d(rng, dark_maps(rng)),
         ),
     ],

@@ -72,8 +72,8 @@ def _(K, std, A, B, Q, R, S, T):
       next state M x is x^T M^T P M x, so use M^T P M instead
     cost-after-the-last-step: your code uses Q as the cost-to-go matrix P after the last
       step. Begin with P = 0, because no cost follows the last step
-    optimal-P: your code computes P with the optimal gain of Riccati's recursion. Use P
-      = Q + K^T R K + M^T P M instead, which belongs to the given gain K
+    optimal-P: your code computes P with the optimal gain from the Riccati recursion.
+      Use P = Q + K^T R K + M^T P M instead, which holds for the given gain K
     return-sign: your gradient has the wrong sign. Return the gradient of the cost,
       which is minus the gradient of the return
     effort-forgotten: your code omits K^T R K, the cost of the mean input, from the

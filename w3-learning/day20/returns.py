@@ -83,8 +83,8 @@ def _(reward, gamma, last):
       so on
     whole: your code assigns the return of the whole episode to every step. Omit the
       rewards before a step from the return of this step
-    last-as-reward: your code replaces the last reward by `last`. Keep the last reward,
-      and add gamma times `last` to this reward
+    last-as-reward: your code replaces the last reward with `last`. Keep the last reward
+      and add gamma times `last` to it
     """
     T = len(reward)
     g = gamma ** np.arange(T)[:, None]

@@ -124,8 +124,8 @@ def _(success):
     adjusted: your function returns p-values that are corrected for the number of
       comparisons. Return the p-values of the sign test, because Holm's method changes
       only the limits
-    only-if-better: your code reports only differences in which the first policy is
-      better. Report a significant difference in the other direction as well
+    only-if-better: your code reports a significant difference only if the first policy
+      is better. Report one in the other direction as well
     all-successes: your code compares the total numbers of successes of both policies.
       Use only the starts on which exactly one of the two policies succeeds
     one-sided: your p-values are one-sided. Use the two-sided sign test instead, because

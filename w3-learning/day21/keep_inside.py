@@ -110,8 +110,8 @@ def _(p, v, low, high, dt):
       velocity at the lower walls as well
     lower-only: your code limits the velocity only at the lower walls. Limit the
       velocity at the upper walls as well
-    first-walls: your code uses the walls of the first entry for all entries. Use the
-      walls of each entry instead
+    first-walls: your code uses the walls of the first entry for all entries. Use each
+      entry's own walls instead
     first-two: your code limits only the first two entries. Limit all entries, because a
       position can have more than two entries
     symmetric: your code uses `-high` as the lower wall. Use `low` instead, because the
