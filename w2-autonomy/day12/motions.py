@@ -243,8 +243,8 @@ OPTIONS = [
                               "`a`, `b`, `c`",
          lambda A, B, G: (B, A, G)))),
     *(Option(slug, says, {"most": of}, alone=True) for slug, says, of in (
-        ("no-speed-limit", "your code ignores `sd2_max`. Limit sd^2 to `sd2_max` in both "
-                           "passes, because the joint velocities are limited",
+        ("no-speed-limit", "your code ignores `sd2_max`. Limit sd^2 to `sd2_max` in "
+                           "both passes, because the joint velocities are limited",
          lambda x: np.full_like(x, 1e3)),
         ("x-max-of-the-next-point", "your code uses `sd2_max` of the next point. Use "
                                     "`sd2_max` of the same point instead",
