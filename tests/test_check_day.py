@@ -152,7 +152,7 @@ class TestCheck:
         assert done.returncode == 1
         assert "WRONG" in done.stdout
         assert "transpose" in done.stdout
-        assert "largest difference" in done.stdout
+        assert "largest error of an entry" in done.stdout
 
     def test_keeps_to_80_columns_and_plain_text(self, run_in, work, day):
         text = day.source.read_text("utf-8").replace("T[:3, 3] = t", "T[:3, 3] = -t")
