@@ -284,6 +284,7 @@ def item(path, name, mark):
 
 def test_of_a_days_authors_tests_a_tenth_is_left_where_it_has_not_changed(monkeypatch):
     monkeypatch.setattr(whole, "changed", lambda day: day.number == 1)
+    monkeypatch.setattr(whole, "machine_is_recorded", lambda: False)
 
     first, other, house = find_day(1).own, find_day(5).own, ROOT / "tests"
     folders = [folder for folder in (first, other, house) for _ in range(30)]
