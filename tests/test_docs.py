@@ -295,6 +295,8 @@ def test_a_line_of_a_weeks_list_does_not_repeat_the_method_of_the_title():
     listed = docs.days_list("w3-learning", ROOT / "w3-learning")
     assert "](docs/day15-lab.md)**: a network that" in listed
     assert "](docs/day18-lab.md)**: DAgger: from" in listed  # not in its title
+    assert "Behaviour cloning](docs/day15-lab.md)** |" in listed  # its picture's words
+    assert "](docs/day18-lab.md)**<br>DAgger |" in listed
 
 
 GUIDES = [day.folder / day.guide for day in all_days()]

@@ -115,7 +115,7 @@ def days_list(wanted: str, folder: Path) -> str:
         for day in days_of(week):
             unwritten.pop(day.number, None)
             guide = _between(folder, day.folder / day.guide)
-            cards += _card(day, guide, folder, day.method if alone else day.see)
+            cards += _card(day, guide, folder, _method(day) if alone else day.see)
             lines.append(
                 f"- **[Day {day.number}: {day.title}]({guide})**: {_says(day)}"
             )
@@ -128,10 +128,15 @@ def days_list(wanted: str, folder: Path) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def _says(day: Day) -> str:
-    """Return what a day shows, without its method if the title begins with it."""
+def _method(day: Day) -> str:
+    """Return a day's method, or "" if the title begins with it."""
     named = day.title.lower().startswith(day.method.lower())
-    return day.result if named else day.see
+    return "" if named else day.method
+
+
+def _says(day: Day) -> str:
+    """Return what a day shows, without a method that the title has named."""
+    return day.see if _method(day) else day.result
 
 
 def _between(folder: Path, path: Path) -> str:
@@ -145,8 +150,8 @@ def _card(day: Day, guide: str, folder: Path, says: str) -> list[tuple[str, str]
     if not (folder / small).is_file():
         return []
     picture = f"[![A picture of day {day.number}]({small})]({guide})"
-    words = f"**[Day {day.number}: {day.title}]({guide})**<br>"
-    return [(picture, f"{words}{says[0].upper()}{says[1:]}")]
+    title = f"**[Day {day.number}: {day.title}]({guide})**"
+    return [(picture, f"{title}<br>{says[0].upper()}{says[1:]}" if says else title)]
 
 
 def _grid(cards: Sequence[tuple[str, str]]) -> str:
