@@ -3,16 +3,17 @@
 import ast
 import contextlib
 import inspect
+import linecache
 import textwrap
 from dataclasses import replace
-from types import SimpleNamespace
+from types import FunctionType, SimpleNamespace
 
 import numpy as np
 import pytest
 from test_claims import right, told
 
 from labkit.base.exchange import Reply
-from labkit.judge import limits
+from labkit.judge import effort, limits
 from labkit.judge.ask import asked_of
 from labkit.judge.judge import judge
 from labkit.judge.mutant import Body
@@ -106,31 +107,61 @@ def test_a_search_ends_after_a_count_of_lines_that_no_clock_changes(monkeypatch)
     one = body("def f(x):\n    for _ in range(4):\n        x = x + 1\n    return x\n")
     one.calibrate([0])
     one.compiled()(0)
-    assert one.steps.taken == one.steps.lines > one.steps.usual == 4
+    once, step = one.steps.work
+    assert one.steps.taken == one.steps.lines == once + 4 * step > one.steps.usual == 4
     next(b for a, b in one.further() if a.text == "for _ in list(range(4))[::2]:")(0)
-    assert one.steps.taken == one.steps.lines // 2
-    monkeypatch.setattr(limits.time, "process_time", lambda: 0.0)
-    effort = limits.Effort()
-    while not effort.spent():
-        effort.spend(one.steps.taken)
-    assert -limits.ONCE < effort.left + one.steps.lines // 2 <= one.steps.lines // 2
+    assert one.steps.taken == once + 2 * step
+    monkeypatch.setattr(effort.time, "process_time", lambda: 0.0)
+    some = effort.Effort()
+    while not some.spent():
+        some.spend(one.steps.taken)
+    assert -effort.ONCE - one.steps.taken < some.left <= 0
+
+
+def costs(*texts, **space):
+    """Return what calls of functions of one module cost, by their names."""
+    linecache.cache["<costs>"] = (0, None, "\n".join(texts).splitlines(True), "<costs>")
+    exec(compile("\n".join(texts), "<costs>", "exec"), space)
+    made = [name for name in space if isinstance(space[name], FunctionType)]
+    trees = {
+        name: ast.parse(f"def f(x):\n    return {name}(x)").body[0] for name in made
+    }
+    return {name: effort.work(tree, space).lines(1) for name, tree in trees.items()}
 
 
 def test_the_lines_of_the_functions_that_are_called_are_counted():
     lines = "".join(f"    x = x + {k}\n" for k in range(60))
-    space = {}
-    exec(f"def long(x):\n{lines}    return x\n", space)
-    exec("def short(x):\n    return x\n", space)
-    exec("def both(x):\n    return long(x) + short(x)\n", space)
-    exec("def again(x):\n    return again(x - 1) if x else 0\n", space)
-    called = {
-        name: limits.work(ast.parse(f"def f(x):\n    return {name}(x)").body[0], space)
-        for name in ("long", "short", "both", "again")
-    }
-    assert called["short"] == limits.CALL + 2
-    assert called["long"] > 60
-    assert called["both"] > called["long"] + called["short"] - 4
-    assert called["again"] < 6 * limits.CALL
+    cost = costs(
+        f"def long(x):\n{lines}    return x\n",
+        "def short(x):\n    return x\n",
+        "def both(x):\n    return long(x) + short(x)\n",
+        "def again(x):\n    return again(x - 1) if x else 0\n",
+    )
+    assert cost["short"] < 2 * effort.NUMPY
+    assert cost["long"] > 60 * effort.OPERATOR
+    assert cost["both"] > cost["long"] + cost["short"] - 4
+    assert cost["again"] < 6 * effort.NUMPY
+
+
+def test_what_a_line_does_says_what_it_costs():
+    cost = costs(
+        "def plain(x):\n    return x\n",
+        "def adds(x):\n    return x + x\n",
+        "def sums(x):\n    return np.sum(x)\n",
+        "def inverts(x):\n    return np.linalg.inv(x)\n",
+        "def turns(x):\n    return np.cross(x, x)\n",
+        "def asks(x, f):\n    return f(x)\n",
+        "def loops(x):\n    for _ in x:\n        x = np.cross(x, x)\n    return x\n",
+        "def seeks(x):\n    while x:\n        x = np.cross(x, x)\n    return x\n",
+        "def within(x):\n    def f(x):\n        return np.cross(x, x)\n"
+        "    return f(x)\n",
+        np=np,
+    )
+    order = ["plain", "adds", "sums", "inverts", "asks", "turns", "loops", "seeks"]
+    assert sorted(order, key=cost.__getitem__) == order
+    assert cost["loops"] > effort.TURNS * effort.SLOW
+    assert cost["seeks"] > effort.SEARCH * effort.SLOW
+    assert cost["within"] > effort.SLOW
 
 
 def test_an_outer_product_in_a_loop_does_not_fill_the_memory():

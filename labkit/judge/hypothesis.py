@@ -60,6 +60,12 @@ class Difference:
             for some, s, k in trios
         ]
 
+    def free(self, i: int) -> Array:
+        """Return how far each number of the answer to one call may be off, as a row."""
+        trios = zip(self.digits, self.S, self.ask.kinds, strict=True)
+        some = [np.broadcast_to(x[i] * k.scale, s.shape[1:]) for x, s, k in trios]
+        return np.concatenate([np.ravel(x) for x in some])
+
     def fits(self, i: int, H: Parts, digits: bool = False) -> bool:
         """Return whether a hypothesis explains the answer to one call.
 

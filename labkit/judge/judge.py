@@ -42,11 +42,11 @@ from labkit.judge.ask import (
     right_answers,
     stacked,
 )
+from labkit.judge.effort import Effort
 from labkit.judge.failing_call import Failing, failing_call, for_fresh, gives_away
 from labkit.judge.guard import attempt, noting, quiet, told
 from labkit.judge.in_part import by_results, in_some_calls
 from labkit.judge.kinds import Kind
-from labkit.judge.limits import Effort
 from labkit.judge.matcher import Matcher
 from labkit.judge.mistake import Finding, Verdict
 from labkit.judge.typed import in_words

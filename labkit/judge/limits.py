@@ -1,10 +1,9 @@
-"""Limits of a search: of one call, which a mutation may keep busy for ever, and of all.
+"""Limits of one call of a search, which a mutation may keep busy for ever.
 
 Loops count their steps and look at the clock, which needs no signal: a search runs in
 threads and on Windows as well. LAPACK may not return from numbers that are not finite,
-so these are refused before. What a search may cost is counted in lines of Python, no
-seconds: the same mistake gets the same name on a slow machine. An array whose size is a
-changed number is refused before it is made.
+so these are refused before. An array whose size is a changed number is refused before
+it is made.
 """
 
 import ast
@@ -12,12 +11,14 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
-from functools import cache, partial, wraps
-from types import FunctionType, ModuleType
+from dataclasses import dataclass
+from functools import partial, wraps
+from types import ModuleType
 from typing import Any
 
 import numpy as np
+
+from labkit.judge.effort import ITERATIVE, NONE, Work
 
 Code = Callable[..., Any]
 STEP = "_step_"  # the name that a limited body calls
@@ -32,42 +33,13 @@ MANY = 1_000_000  # that a right function may make
 GROWS = 4  # steps after which variables are looked at: arrays may double at each
 LARGE = 1_000_000  # numbers of an array in a loop
 RANGES = ("arange", "linspace", "logspace", "geomspace")
-GUARDED = ("lstsq", "svd", "eigh", "eigvalsh", "eig", "eigvals", "pinv", "matrix_rank")
-
-
-LINES = 1_250_000  # that a search may execute; a third of a second, or so
-CALL = 20  # lines of a Python function that a body calls, at least
-DEEP = 3  # functions that call each other, whose lines are counted
-ONCE = 200  # lines that take as long as to compile a mutant and compare its answer
-LATE = 2.0  # seconds of the processor, whatever the lines take
-
-
-@dataclass
-class Effort:
-    """What is left of a search."""
-
-    left: int = LINES
-    began: float = field(default_factory=time.process_time)
-    asked: int = 0  # how often
-    late: bool = False
-
-    def spend(self, lines: int) -> None:
-        """Note that a hypothesis was asked for one answer."""
-        self.left -= ONCE + lines
-
-    def spent(self, keep: float = 0.0) -> bool:
-        """Return whether a search has to end, to leave a share for what comes later."""
-        self.asked += 1
-        if self.asked % LOOKS == 0:
-            self.late = time.process_time() > self.began + LATE
-        return self.late or self.left <= keep * LINES
 
 
 class TooLongError(Exception):
     """A mutant takes more steps than any right function."""
 
 
-Measured = tuple[int, float, int, dict[str, int]]
+Measured = tuple[int, float, Work, dict[str, int]]
 
 
 @dataclass
@@ -79,7 +51,7 @@ class Steps:
     seconds: float = 60.0  # of one call
     ends: float = 0.0  # when a call has taken too long
     usual: int = 0  # steps of the right function
-    lines: int = 0  # of Python, that it executes
+    work: Work = NONE  # what it executes
     # Numbers of the largest array that it makes, by the function that makes it; None
     # before it is known.
     largest: dict[str, int] | None = None
@@ -88,11 +60,11 @@ class Steps:
     @property
     def measured(self) -> Measured:
         """What a call of the right function takes: steps, seconds, lines, numbers."""
-        return self.usual, self.seconds, self.lines, self.largest or {}
+        return self.usual, self.seconds, self.work, self.largest or {}
 
     @measured.setter
     def measured(self, measured: Measured) -> None:
-        self.usual, self.seconds, self.lines, self.largest = measured
+        self.usual, self.seconds, self.work, self.largest = measured
         self._allow()
 
     def _allow(self) -> None:
@@ -161,12 +133,12 @@ class Steps:
 
         return call
 
-    def calibrate(self, call: Callable[[], Any], work: int) -> None:
+    def calibrate(self, call: Callable[[], Any], work: Work) -> None:
         """Allow a mutant some times the steps that a call of the right one takes.
 
         Args:
             call: of the right function.
-            work: lines that it executes in each step.
+            work: what that executes.
         """
         self.most, self.left, began = MOST, MOST, time.process_time()
         self.largest, self._made = None, {}
@@ -174,45 +146,19 @@ class Steps:
             call()
             self.usual = MOST - self.left
             self.seconds = SECONDS + TIMES * (time.process_time() - began)
-        self.lines = work * max(self.usual, 1)
+        self.work = work
         self.largest, self._made = self._made, None
         self._allow()
 
     @property
+    def lines(self) -> int:
+        """The lines that a call of the right function executes, or so."""
+        return self.work.lines(self.usual)
+
+    @property
     def taken(self) -> int:
         """The lines that the last call has executed, by its steps."""
-        return self.lines * max(self.most - self.left, 1) // max(self.usual, 1)
-
-
-def work(function: ast.FunctionDef, space: Mapping[str, Any]) -> int:
-    """Return about how many lines a function executes if each loop is passed once.
-
-    It is read off the text. CPython 3.11 can end in an endless loop if a trace or a
-    profile is set in a process that has thrown an exception into another thread.
-
-    Args:
-        function: the syntax tree.
-        space: the names of its module; the lines of a Python function among them that
-            it calls are counted, too.
-    """
-    nodes = list(ast.walk(function))
-    called = [
-        space.get(node.func.id)
-        for node in nodes
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
-    ]
-    own = [one for one in called if isinstance(one, FunctionType)]
-    return sum(isinstance(node, ast.stmt) for node in nodes) + sum(map(_inside, own))
-
-
-@cache
-def _inside(function: FunctionType, deep: int = DEEP) -> int:
-    """Return about how many lines a call of a function executes, `CALL` at least."""
-    names = {*function.__code__.co_names}
-    inner = [function.__globals__.get(name) for name in names] if deep else []
-    more = (_inside(one, deep - 1) for one in inner if isinstance(one, FunctionType))
-    lines = len({line for *_, line in function.__code__.co_lines()})
-    return max(CALL, lines + sum(more))
+        return self.work.lines(self.most - self.left)
 
 
 def loops(trees: Iterable[ast.AST]) -> list[Any]:
@@ -321,7 +267,7 @@ def numpy(steps: Steps) -> ModuleType:
     """
     linalg = ModuleType("numpy.linalg")
     vars(linalg).update(vars(np.linalg))
-    for name in GUARDED:
+    for name in ITERATIVE:
         setattr(linalg, name, _guarded(getattr(np.linalg, name)))
     sized = {name: _sized(name, steps) for name in SIZES}
     guarded = ModuleType("numpy")

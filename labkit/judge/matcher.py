@@ -21,8 +21,8 @@ from labkit.judge.answers import (
     worst_part,
 )
 from labkit.judge.ask import Ask, Case, as_plain
+from labkit.judge.effort import Effort
 from labkit.judge.hypothesis import Difference
-from labkit.judge.limits import Effort
 from labkit.judge.mutant import Body
 from labkit.judge.results import numbers
 from robo47.checks import Array
@@ -183,6 +183,11 @@ class Matcher:
             body.calibrate(self.main.each[self.i])
         others = sorted(self.ask.bodies[1:], key=lambda body: body.steps.lines)
         return [*self.ask.bodies[:1], *others]
+
+    @property
+    def usual(self) -> int:
+        """How many lines a call of the right function executes, or so."""
+        return self.bodies[0].steps.lines if self.bodies else 0
 
     @property
     def lines(self) -> int:

@@ -16,7 +16,7 @@ from functools import cached_property
 from itertools import chain, combinations
 from typing import Any
 
-from labkit.judge import limits, operators, statements
+from labkit.judge import effort, limits, operators, statements
 from labkit.judge.answers import content, own
 from labkit.judge.operators import Place, places
 
@@ -191,7 +191,7 @@ class Body:
         if key not in self.traced and (code := self.compiled()):
             while len(self.traced) >= KEPT:
                 del self.traced[next(iter(self.traced))]
-            work = limits.work(self.function, self.space)
+            work = effort.work(self.function, self.space)
             self.steps.calibrate(lambda: code(*map(own, call)), work)
             self.traced[key] = self.steps.measured
         elif key in self.traced:

@@ -21,6 +21,7 @@ from labkit.judge.answers import (
     parts,
     rigid,
 )
+from labkit.judge.effort import LINES, Effort
 from labkit.judge.hypothesis import EXACT, evidence
 from labkit.judge.matcher import Code, Matcher, row
 from labkit.judge.mistake import BOTH, Finding, Mistake, both_told
@@ -40,6 +41,7 @@ MOST = 80  # mistakes of a function that are tried two at a time
 SUMS = 400  # pairs that add up at one call, of which some do at all
 LIKELY = 3  # first mutants beside which all others are tried
 KEEP = 0.2  # share of a search's effort that is left for mutants beside others
+BESIDE = 0.1  # what share of it pairs may take that add up
 NAMED = 1.5  # a named mistake comes after two signs, and before the other mutants
 # Mutants that may be one of two: by factors and numbers a sum is made in many ways.
 ALONG = {"sign", "negated", "left-out", "name", "order", "transpose", "index", "line"}
@@ -102,19 +104,35 @@ class _Pairs:
 
     def added(self) -> Sequence[Mistake] | None:
         """Return two mistakes whose differences, or factors, come together."""
-        for a, b in combinations(self.answers, 2):
+        for a, b, both in self._near_together():
             pair = self.mistakes[a], self.mistakes[b]
             some = self.answers[a], self.answers[b]
             if pair[0].slug == pair[1].slug or any(map(self._is_another_pose, some)):
                 continue
-            for both in (_sum, _product):
-                if not self._fits(both(*some, self._right)):
-                    continue
-                one, other = (self.m.main.answers(x.redo) for x in pair)
-                factor = both is _product and _one_factor(one, other, self.m.T)
-                if not factor and _add_up(self.m, pair[0].redo, pair[1].redo, both):
-                    return pair
+            if not self._fits(both(*some, self._right)):
+                continue
+            one, other = (self.m.main.answers(x.redo) for x in pair)
+            factor = both is _product and _one_factor(one, other, self.m.T)
+            if not factor and _add_up(self.m, pair[0].redo, pair[1].redo, both):
+                return pair
         return None
+
+    def _near_together(self) -> Iterator[tuple[int, int, Together]]:
+        """Yield the pairs whose sum, or product, may be the student's answer.
+
+        All sums with one mistake are compared at once; a number that is none passes.
+        """
+        its, mine = row(self._right), row(tuple(s[self.i] for s in self.m.S))
+        free = self.m.main.difference.free(self.i)
+        alike, rows = self._rows
+        for n, a in enumerate(alike):
+            sums = rows[n] + rows[n + 1 :] - its
+            products = np.where(its, rows[n] * rows[n + 1 :] / np.where(its, its, 1), 0)
+            far = [np.abs(x - mine) > free for x in (sums, products)]
+            adds, multiplies = (np.all(~one, axis=1).tolist() for one in far)
+            for j, b in enumerate(alike[n + 1 :]):
+                yield from [(a, b, _sum)] * adds[j]
+                yield from [(a, b, _product)] * multiplies[j]
 
     def _is_another_pose(self, answer: Parts) -> bool:
         """Return whether both R and t are wrong: that is no term of a sum."""
@@ -167,6 +185,9 @@ class _Pairs:
     def in_turn(self) -> Sequence[Mistake] | None:
         """Return a mistake made with arguments and one after it, or two options."""
         for first, second, code in self._that_combine():
+            if self.m.effort.spent(KEEP):
+                break
+            self.m.effort.spend(self.m.usual)
             if self.m.holds(code):
                 return first, second
         return None
@@ -179,14 +200,16 @@ class _Pairs:
         they are tried at one.
         """
         first_look = self.i == self.m.i
+        asked = self.m.known.setdefault("in turn", set())
         for i, first in enumerate(self.mistakes):
             one: Any = first.redo
             given = getattr(one.function, "given", None) or self._of_arguments.get(i)
             for k, second in enumerate(self.mistakes):
                 other: Any = second.redo
-                if first.slug == second.slug:
+                if first.slug == second.slug or (i, k) in asked:
                     continue
                 if given:
+                    asked.add((i, k))
                     yield first, second, partial(after, other.function, given)
                 elif i < k and first_look and _options(one.function, other.function):
                     both = partial(one.function, **other.function.keywords)
@@ -225,12 +248,40 @@ class _Pairs:
             answer: to the call at which it is screened.
             other: the answer to any call.
         """
-        for k, its in self.answers.items():
-            if _alike(self.m, answer, its):
+        for k in self._near(answer):
+            if _alike(self.m, answer, self.answers[k]):
                 redo = self.mistakes[k].redo
                 if self._give_all(other, partial(self.m.main.answer, redo)):
                     yield k
                 return
+
+    def _near(self, answer: Parts) -> Iterator[int]:
+        """Yield the mistakes whose answers may be alike, compared all at once."""
+        alike, rows = self._rows
+        wanted = row(answer)
+        if len(wanted) != rows.shape[1]:
+            yield from (k for k in self.answers if k not in alike)
+            return
+        apart = np.abs(rows - wanted) / self._scales
+        size = np.nanmax(np.abs(wanted) / self._scales, initial=1.0)
+        far = np.any(apart > 2 * MATCHES * size, axis=1)
+        yield from (alike[j] for j in np.flatnonzero(~far))
+
+    @cached_property
+    def _rows(self) -> tuple[list[int], Array]:
+        """The mistakes whose answers have the shapes of the right one, and these."""
+        shapes = [x.shape for x in self._right]
+        some = self.answers.items()
+        alike = [k for k, one in some if [x.shape for x in one] == shapes]
+        size = sum(x.size for x in self._right)
+        rows = [row(self.answers[k]) for k in alike]
+        return alike, np.array(rows).reshape(len(alike), size)
+
+    @cached_property
+    def _scales(self) -> Array:
+        pairs = zip(self._right, self.m.ask.kinds, strict=True)
+        some = [np.broadcast_to(kind.scale, x.shape) for x, kind in pairs]
+        return row(tuple(some))
 
     def _give_all(
         self, one: Callable[[int], Parts], other: Callable[[int], Parts]
@@ -405,10 +456,14 @@ def beside(m: Matcher) -> Finding | None:
     mine = row(tuple(s[m.i] for s in m.S))
     sums = islice(_sums(off, mine - its), SUMS)
     pairs = [(known[a], known[b]) for a, b in sums]
+    effort = Effort(int(BESIDE * LINES))
     for one, other in sorted(pairs, key=lambda pair: pair[0].rank + pair[1].rank):
         tells = one.apart(other) and one.says and other.says
         if not tells or one.says == other.says:
             continue
+        if effort.spent():
+            break
+        effort.spend(2 * m.usual)
         if one.code and other.code and _add_up(m, one.code, other.code):
             return _told(m, [one.slug, other.slug], [one.says, other.says])
     return None

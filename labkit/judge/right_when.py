@@ -189,28 +189,7 @@ class Experiments:
 
     def doubled(self) -> str:
         """Return that answers do not grow with an argument as the right ones, or ""."""
-        some = [*self.calls, *self._others()]
-        doubled = {
-            k: _with(some, k, [2.0 * call[k] for call in some])
-            for k in range(len(self.names))
-            if all(_may_be_doubled(call[k]) for call in self.calls)
-            and not any(np.any(self._fixed(k, call[k])) for call in self.calls)
-            and all(isinstance(call[k], float | np.ndarray) for call in some)
-        }
-        before, *after = self._each([some, *doubled.values()])
-        base = list(self.truth(some))
-        for (k, twice), given in zip(doubled.items(), after, strict=True):
-            right = list(self.truth(twice))
-            first = slice(len(self.calls))
-            if any(answer is None for answer in right[first]):
-                continue
-            grew = self._growth(before[first], given[first])
-            its = self._growth(base[first], right[first])
-            if grew is None or (its is not None and np.isclose(grew, its, rtol=1e-3)):
-                continue
-            always = self._growth(before, given)
-            if always is None or not np.isclose(always, grew, rtol=1e-3):
-                continue
+        for k, grew, its in self._that_grow():
             name = f"`{self.names[k]}`{_sized(self.calls[0][k])}"
             if np.isclose(grew, 1.0, rtol=self.near):
                 if not self._grows_fresh(k, grew):
@@ -224,6 +203,33 @@ class Experiments:
                     "large."
                 )
         return ""
+
+    def _that_grow(self) -> Iterator[tuple[int, float, float | None]]:
+        """Yield the arguments with which answers do not grow as the right ones.
+
+        With each stand the factor of the student's answers and that of the right ones.
+        The first calls are asked alone: of most functions nothing is to be tried then.
+        """
+        some = [*self.calls, *self._others()]
+        doubled = {
+            k: _doubled(self.calls, k)
+            for k in range(len(self.names))
+            if all(_may_be_doubled(call[k]) for call in self.calls)
+            and not any(np.any(self._fixed(k, call[k])) for call in self.calls)
+            and all(isinstance(call[k], float | np.ndarray) for call in some)
+        }
+        before, *after = self._each([self.calls, *doubled.values()])
+        base = list(self.truth(self.calls))
+        for (k, twice), given in zip(doubled.items(), after, strict=True):
+            right = list(self.truth(twice))
+            if any(answer is None for answer in right):
+                continue
+            grew, its = self._growth(before, given), self._growth(base, right)
+            if grew is None or (its is not None and np.isclose(grew, its, rtol=1e-3)):
+                continue
+            always = self._growth(*self._each([some, _doubled(some, k)]))
+            if always is not None and np.isclose(always, grew, rtol=1e-3):
+                yield k, grew, its
 
     def _grows_fresh(self, k: int, grew: float, its: float | None = None) -> bool:
         """Return whether the fresh answers grow by these factors, too.
@@ -241,7 +247,7 @@ class Experiments:
             and _may_be_doubled(call[k])
             and _sized(call[k]) == _sized(first)
         ]
-        twice = _with(some, k, [2.0 * call[k] for call in some])
+        twice = _doubled(some, k)
         before, after = self._each([some, twice])
         if not _all_grew(before, after, grew):
             return False
@@ -470,6 +476,11 @@ def _neutral_in(k: int, neutral: Neutral, call: Call) -> list[Call]:
     """Return a call with argument k neutral in one way; none if it cannot be."""
     same = (one for one in neutrals(call[k]) if one.says == neutral.says)
     return [(*call[:k], one.value, *call[k + 1 :]) for one in same]
+
+
+def _doubled(calls: Sequence[Call], k: int) -> list[Call]:
+    """Return calls with the k-th argument doubled."""
+    return _with(calls, k, [2.0 * call[k] for call in calls])
 
 
 def _with(calls: Sequence[Call], k: int, values: Sequence[Any]) -> list[Call]:

@@ -15,7 +15,7 @@ row = Row(
     Waypoints((None, None)),
     unnamed=of_a_planner,
     at_edge=lambda *call: False,  # trees on a grid are full of ties
-    each_case=80,  # a planner takes long, and its calls too
+    each_case=50,  # a planner takes long, and its calls too
     slips=(
         ASKS,
         Slip(

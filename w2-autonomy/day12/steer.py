@@ -206,7 +206,7 @@ def _(q, target, step):
     return q + (target - q) * min(1.0, step / max(far, 1e-12))
 
 
-@row.wrong("not-the-target")
+@row.wrong("not-the-target", hidden="on some processors its trees join, too")
 def _(q, target, step):
     way = target - q
     far = np.linalg.norm(way)
