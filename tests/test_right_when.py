@@ -134,6 +134,27 @@ def test_an_answer_that_grows_as_the_right_one_says_nothing():
     )
 
 
+def test_only_an_argument_that_may_be_told_is_doubled_at_many_calls():
+    asked = []
+
+    def mine(m, v):
+        asked.append((m, v))
+        return m * v + 0.3
+
+    known = [(float(a), float(b)) for a, b in np.random.default_rng(0).random((60, 2))]
+    some = Experiments(
+        known[:6],
+        ["m", "v"],
+        lambda calls: [mine(*call) for call in calls],
+        lambda calls: [m * v for m, v in calls],
+        1e-5,
+        known,
+        [False] * 60,
+    )
+    assert some.doubled() == ""
+    assert len(asked) == 6 + 2 * 6
+
+
 def test_a_rotation_is_not_doubled():
     calls = [(se3.Rz(x), np.ones(3)) for x in (0.3, 0.7, 1.1)]
     ones, right = lambda R, v: np.ones(3), lambda R, v: R @ v

@@ -11,6 +11,7 @@ from test_cases import told, toy
 from labkit.judge import limits, pairs
 from labkit.judge.answers import AtOnce
 from labkit.judge.ask import Case, asked_of, right_answers, stacked
+from labkit.judge.effort import LINES
 from labkit.judge.matcher import BRIEF, COSTLY, Matcher
 from labkit.judge.mutant import Body
 from labkit.judge.row import row_of
@@ -121,3 +122,43 @@ def test_the_answers_of_a_named_mistake_are_worked_out_once_for_each_call():
     redo = m.ask.named[0].redo
     assert m.main.answer(redo, m.i) is m.main.answer(redo, m.i)
     assert m.main.answer(m.right, m.i) is not m.main.answer(m.right, m.i)
+
+
+def test_pairs_that_may_add_up_are_those_whose_sum_or_product_does():
+    m = matcher_of(2, "exp_screw")
+    some = pairs._Pairs(m, m.i)
+    keys, rows = some._rows
+    assert len(keys) > 5
+    its = np.concatenate([np.ravel(t[m.i]) for t in m.T])
+    a, b = keys[1], keys[4]
+    wanted = {
+        pairs._sum: rows[1] + rows[4] - its,
+        pairs._product: np.where(its, rows[1] * rows[4] / np.where(its, its, 1), 0),
+    }
+    for both, row in wanted.items():
+        S = tuple(t.copy() for t in m.T)
+        S[0][m.i] = row.reshape(S[0][m.i].shape)
+        one = pairs._Pairs(Matcher(m.case, S, m.T), m.i)
+        found = list(one._near_together())
+        assert (a, b, both) in found
+        assert len(found) < len(keys)
+
+
+def test_a_function_made_with_a_mistake_before_it_is_asked_once_for_two_looks():
+    m = matcher_of(2, "exp_screw")
+    looks = [pairs._Pairs(m, i) for i in (m.i, m.i - 1)]
+    first, again = ({x[:2] for x in one._that_combine()} for one in looks)
+    assert first
+    assert not first & again
+
+
+def test_pairs_end_with_what_is_left_of_a_search():
+    m = matcher_of(2, "exp_screw")
+    one = pairs._Pairs(m, m.i)
+    assert len(list(one._that_combine())) > 1
+    m.known.clear()
+    m.effort.left = int(pairs.KEEP * LINES)
+    asked = itertools.count()
+    object.__setattr__(m, "holds", lambda code: next(asked) < 0)
+    assert one.in_turn() is None
+    assert next(asked) == 0
