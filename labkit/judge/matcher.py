@@ -222,6 +222,11 @@ class Matcher:
         """The call with a wrong answer that takes least, where the others take long."""
         return min(self._lines, key=self._lines.__getitem__, default=self.i)
 
+    @property
+    def costly(self) -> bool:
+        """Whether a usual call takes long."""
+        return bool(self._lines)
+
     @cached_property
     def _lines(self) -> dict[int, int]:
         """How many lines the first wrong calls and the drawn ones take, by call.

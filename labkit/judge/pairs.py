@@ -58,7 +58,7 @@ def two_at_once(m: Matcher) -> Finding | None:
     """Return two named mistakes that together give the student's answers, or None."""
     if m.whole:
         return None
-    for i in dict.fromkeys([m.i, m.furthest]):
+    for i in dict.fromkeys([m.i] if m.costly else [m.i, m.furthest]):
         pairs = _Pairs(m, i)
         some = (pairs.of_its_kind, pairs.added, pairs.finished, pairs.in_turn)
         if found := next(filter(None, (one() for one in some)), None):
