@@ -11,7 +11,6 @@ from test_cases import told, toy
 from labkit.judge import limits, pairs
 from labkit.judge.answers import AtOnce
 from labkit.judge.ask import Case, asked_of, right_answers, stacked
-from labkit.judge.effort import LINES
 from labkit.judge.matcher import BRIEF, COSTLY, Matcher
 from labkit.judge.mutant import Body
 from labkit.judge.row import row_of
@@ -157,7 +156,7 @@ def test_pairs_end_with_what_is_left_of_a_search():
     one = pairs._Pairs(m, m.i)
     assert len(list(one._that_combine())) > 1
     m.known.clear()
-    m.effort.left = int(pairs.KEEP * LINES)
+    one.effort.left = 0
     asked = itertools.count()
     object.__setattr__(m, "holds", lambda code: next(asked) < 0)
     assert one.in_turn() is None

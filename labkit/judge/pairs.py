@@ -5,7 +5,7 @@ Each half has a sentence that stands alone, or the pair is not told.
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import combinations, islice
 from typing import Any
@@ -41,7 +41,7 @@ MOST = 80  # mistakes of a function that are tried two at a time
 SUMS = 400  # pairs that add up at one call, of which some do at all
 LIKELY = 3  # first mutants beside which all others are tried
 KEEP = 0.2  # share of a search's effort that is left for mutants beside others
-BESIDE = 0.1  # what share of it pairs may take that add up
+IN_TURN, BESIDE = 0.3, 0.1  # shares of one for pairs made in turn, or that add up
 NAMED = 1.5  # a named mistake comes after two signs, and before the other mutants
 # Mutants that may be one of two: by factors and numbers a sum is made in many ways.
 ALONG = {"sign", "negated", "left-out", "name", "order", "transpose", "index", "line"}
@@ -58,8 +58,9 @@ def two_at_once(m: Matcher) -> Finding | None:
     """Return two named mistakes that together give the student's answers, or None."""
     if m.whole:
         return None
+    effort = Effort(int(IN_TURN * LINES))
     for i in dict.fromkeys([m.i] if m.costly else [m.i, m.furthest]):
-        pairs = _Pairs(m, i)
+        pairs = _Pairs(m, i, effort)
         some = (pairs.of_its_kind, pairs.added, pairs.finished, pairs.in_turn)
         if found := next(filter(None, (one() for one in some)), None):
             says = [_BUT.sub("", one.says) for one in found]
@@ -82,6 +83,7 @@ class _Pairs:
 
     m: Matcher
     i: int  # the call at which they are screened
+    effort: Effort = field(default_factory=Effort)  # for those that are made in turn
 
     @cached_property
     def mistakes(self) -> list[Mistake]:
@@ -185,9 +187,9 @@ class _Pairs:
     def in_turn(self) -> Sequence[Mistake] | None:
         """Return a mistake made with arguments and one after it, or two options."""
         for first, second, code in self._that_combine():
-            if self.m.effort.spent(KEEP):
+            if self.effort.spent():
                 break
-            self.m.effort.spend(self.m.usual)
+            self.effort.spend(self.m.usual)
             if self.m.holds(code):
                 return first, second
         return None
