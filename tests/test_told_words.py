@@ -93,6 +93,13 @@ def test_a_mistake_that_is_a_question_keeps_its_mark():
     )
 
 
+def test_your_code_for_a_step_stays_your_code():
+    says = both_told("your code adds 1", "your code for the next pose uses 2")
+    assert says.endswith(
+        "First, it adds 1. Second, your code for the next pose uses 2."
+    )
+
+
 def test_your_code_is_said_once_of_two_mistakes():
     says = both_told("your code adds 1", "your code returns `x`, because it is 0")
     assert says == (

@@ -93,10 +93,12 @@ class Mistake:
 def both_told(first: str, second: str) -> str:
     """Return two clauses on two mistakes as sentences; "your code" is said once.
 
-    After another subject, or a rule, it would not be clear what "it" is.
+    After another subject, or a rule, it would not be clear what "it" is, and "your code
+    for the next pose" is no "it".
     """
     if first.startswith(YOUR_CODE) and ". " not in first:
-        first, second = (re.sub(f"^{YOUR_CODE}", "it ", one) for one in (first, second))
+        own = f"^{YOUR_CODE}(?!for )"
+        first, second = (re.sub(own, "it ", one) for one in (first, second))
     says = as_sentence(f"First, {first}"), as_sentence(f"Second, {second}")
     return f"Your code has two mistakes. {' '.join(says)}"
 
