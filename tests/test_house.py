@@ -154,6 +154,10 @@ def test_an_import_is_seen_in_a_function_and_by_name(tmp_path, code, other):
     assert other in {*imported(file), *named(file)}
 
 
+# Walls of the sandbox that not every kernel has.
+OF_SOME_KERNELS = {f"labkit/sandbox/inside/{x}.py" for x in ("landlock", "seccomp")}
+
+
 @pytest.mark.kit
 def test_the_guide_tells_the_way_of_a_check_file_by_file(run, student):
     source = find_task("1.4")[0].source
@@ -165,7 +169,8 @@ def test_the_guide_tells_the_way_of_a_check_file_by_file(run, student):
     guide = (ROOT / "docs" / "architecture.md").read_text("utf-8")
     steps = guide.partition("## How `make check")[2].partition("\n## ")[0]
     told = set(re.findall(r"`(\S+\.py)`", steps))
-    assert told == set(re.findall(r"^(\S+\.py)$", done.stderr, re.M))
+    ran = set(re.findall(r"^(\S+\.py)$", done.stderr, re.M))
+    assert told == ran - OF_SOME_KERNELS
 
 
 @pytest.mark.parametrize("name", TAUGHT)
