@@ -192,10 +192,11 @@ def alarm_at(score: ArrayLike, limit: float, ticks: int) -> int:
 
 
 def lag_behind(v: float, stiffness: float, inertia: float) -> float:
-    """Return how far a critically damped spring trails its moving set point.
+    """Return the steady-state lag of the hand behind a set point of constant velocity.
 
-    The damper acts on the absolute velocity: no velocity is sent forward. In the
-    steady state the spring balances the damper, K e = D v with D = 2 sqrt(K Lambda).
+    A spring with a critical damper moves the hand to the set point, without feedforward
+    velocity: the damper acts on the absolute velocity of the hand. In the steady state
+    the spring balances the damper, K e = D v with D = 2 sqrt(K Lambda).
 
     Args:
         v: velocity of the set point, m/s.

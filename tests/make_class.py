@@ -249,6 +249,17 @@ def commit(clone: Path, when: int) -> None:
         )
 
 
-if __name__ == "__main__":
-    for kind, folders in make_class(Path(sys.argv[1]), int(sys.argv[2])).items():
+def main(arguments: list[str]) -> None:
+    """Make the class that the command line asks for, and print who is in it."""
+    usage = "usage: python tests/make_class.py FOLDER STUDENTS"
+    if len(arguments) != 2 or not arguments[1].isdecimal():
+        sys.exit(f"{usage}, such as: python tests/make_class.py /tmp/class 200")
+    root = Path(arguments[0])
+    if root.exists() and not (root.is_dir() and not any(root.iterdir())):
+        sys.exit(f"{usage}; {root} exists already: give a new or an empty folder")
+    for kind, folders in make_class(root, int(arguments[1])).items():
         print(f"{kind}: {', '.join(folders[:5])}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

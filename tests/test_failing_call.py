@@ -6,7 +6,7 @@ from judged import answered, replies_of, right, round_of
 
 from labkit.base.exchange import Question, Reply
 from labkit.check.report import matrix_of
-from labkit.judge import Matrix, Scalar, Vector
+from labkit.judge import Count, Index, Matrix, Scalar, Vector, Word
 from labkit.judge.answers import InTurn
 from labkit.judge.ask import SEED, Ask, Edges, HeldOut, right_answers
 from labkit.judge.failing_call import Failing, failing_call
@@ -176,6 +176,59 @@ def test_of_several_wrong_results_it_is_the_one_that_is_talked_about():
     answers[1][1, 1] = 7000.0  # further off, in a call whose sine is right
     answered(asked.exchanges, replies_of(answers))
     assert failing_call(asked).call.startswith("f(2)[0] returned ")
+
+
+@pytest.mark.parametrize("kind", [Count(), Index()])
+def test_a_wrong_count_in_the_message_is_that_of_the_failing_call(kind):
+    calls = [(7.25,), (3.125,), (0.0,), (2.5,), (6.75,)]
+    ask = Ask(lambda rng: calls, kind, truth=np.floor)
+    asked = round_of(ask)
+    for one in asked.exchanges:
+        (x,) = one.question.args
+        answer = int(x // 1) + (round(4 * x) % 4)  # right at 0
+        answered([one], [Reply(value=answer, again=answer)])
+    verdict = judge(asked)
+    numbers = "returned 4; expected 2"
+    assert verdict.call == f"f(2.5) {numbers}."
+    assert f"Your function {numbers}" in verdict.message
+
+
+@pytest.mark.parametrize(
+    ("kind", "answer", "says"),
+    [
+        ((Scalar(), Vector((2,))), [1.0, 2.0, 3.0], "f(2) returned 3 results."),
+        (
+            (Scalar(), Vector((2,))),
+            np.ones(3),
+            "f(2) returned one array of shape (3,).",
+        ),
+        ((Index(), (Scalar(), Scalar())), (0, (1.0,)), "f(2)[1] returned 1 result."),
+        ((Index(), Vector((2,))), (0, np.ones(3)), "f(2)[1] returned shape (3,)."),
+        ((Scalar(), Vector((2,))), (1.0, "x"), "f(2)[1] returned 'x'."),
+        (Index(), 1.5, "f(2) returned 1.5."),
+        (Word(words=("yes", "no")), "maybe", "f(2) returned 'maybe'."),
+    ],
+)
+def test_a_call_whose_answer_cannot_be_compared_is_shown(kind, answer, says):
+    ask = Ask(lambda rng: [(2.0,), (3.0,)], kind, accept=lambda x, answer: None)
+    asked = round_of(ask)
+    answered(
+        asked.exchanges, [Reply(value=answer, again=answer)] * len(asked.exchanges)
+    )
+    verdict = judge(asked)
+    assert (verdict.status, verdict.call) == ("wrong", says)
+
+
+def test_a_call_whose_answer_is_not_accepted_is_shown():
+    ask = Ask(
+        lambda rng: [(2.0,), (3.0,), (float(rng.numbers(3, 4)),)],
+        Vector((2,)),
+        accept=lambda x, answer: None if answer[0] < x else "The first entry is large.",
+    )
+    asked = asked_with(lambda x: np.array([[2.0, x]]), ask)
+    verdict = judge(asked)
+    assert verdict.call == "The failing call: f(2)."
+    assert "returned: [2.0, 2.0]" in verdict.measured
 
 
 def _sine_and_pair(x):

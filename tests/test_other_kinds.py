@@ -157,8 +157,8 @@ COUNTS = np.array([62, 43, 10, 7])
             "miscounted",
             "returned 61; expected 62. The result is wrong in 1 of",
         ),
-        (COUNTS - 0.5, "not-whole", "returned 61.5; expected a whole number"),
-        (-COUNTS, "miscounted", "-62; expected 62"),  # no talk of signs
+        (COUNTS - 0.5, "not-whole", "returned 42.5; expected a whole number"),
+        (-COUNTS, "miscounted", "-43; expected 43"),  # no talk of signs
         ([0, 0, 0, 0], "ignores-its-input", "same"),  # nor of arrays never filled
     ],
 )

@@ -650,3 +650,25 @@ def test_no_page_is_wider_than_the_screen(browse, site, width):
         wide = page.evaluate("document.documentElement.scrollWidth")
         assert wide <= width, path.relative_to(site)
     assert page.problems == []
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("browse", [WITHOUT_3D], indirect=True)
+def test_on_a_phone_a_table_of_days_is_a_list_with_each_title_beside_its_picture(
+    browse,
+):
+    placed = """selector => [...document.querySelectorAll(selector)].map(e => {
+        const box = e.getBoundingClientRect();
+        const day = (e.alt || e.innerText).match(/day (\\d+)/i)[1];
+        return [box.top + box.height / 2, Number(day), box.left];
+    })"""
+    for folder in ("", *(f"{week.folder.name}/" for week in weeks())):
+        page = browse(f"{folder}README.html", 390, wait_until="load")
+        wide = "e => e.some(one => one.scrollWidth > one.clientWidth)"
+        assert not page.eval_on_selector_all(".table-wrapper:has(th img)", wide)
+        pictures = sorted(page.evaluate(placed, "table:has(th img) img"))
+        titles = sorted(page.evaluate(placed, "table:has(th img) strong"))
+        days = [day for _, day, _ in pictures]
+        assert days == sorted(days) == [day for _, day, _ in titles] != []
+        for (_, _, left), (_, _, right) in zip(pictures, titles, strict=True):
+            assert left + 100 < right

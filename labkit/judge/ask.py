@@ -14,6 +14,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from labkit.base.exchange import Exchange, Path, Question, Reply
 from labkit.judge import fits
@@ -127,6 +128,8 @@ class Case:
     # Per question of `Ask.probe` its arguments and the answer, or None.
     probes: Sequence[tuple[tuple[Any, ...], Any]] = ()
     further: "Further | None" = None  # what a sentence must hold for as well
+    # Which question is the failing call that is shown, (n,) of bool; None is unknown.
+    failing: NDArray[np.bool_] | None = None
     names: Sequence[str] = ()  # of the arguments, for sentences
     source: str = ""  # the student's file
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from labkit.base.exchange import Exchange, Question
 from labkit.judge import replies_read
@@ -19,7 +20,7 @@ from labkit.judge.ask import Ask, Asked, HeldOut, of_complex, right_answers
 from labkit.judge.kinds import Kind
 from labkit.judge.mistake import Compared, Example, Finding
 from labkit.judge.replies_read import not_accepted, read
-from labkit.judge.results import places, split
+from labkit.judge.results import not_split, places, split
 from labkit.judge.typed import shown, typed, typed_one
 from labkit.judge.valid import taken
 from robo47.checks import Array
@@ -41,6 +42,8 @@ class Failing(NamedTuple):
 
 AS_FAR = 0.999  # of the furthest: as far off, so that rounding does not choose
 CLEARLY = 0.1  # of the furthest: far enough off that the difference is seen
+SHOWN = ("not-an-array", "not-an-index", "another-word")  # a word, or one number
+MISFITS = ("shape", "parts", *SHOWN)  # answers that cannot be compared
 DUST = 1e-12  # of an entry's scale: rounding, whose digits are the processor's
 
 
@@ -98,26 +101,33 @@ def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | No
 def _misfit(
     asked: Asked, exchanges: Sequence[Exchange], names: Sequence[str]
 ) -> Failing | None:
-    """Return the first call whose answer has a wrong shape."""
+    """Return the first call whose answer is not of the kind that is expected."""
     for one in exchanges:
         found = read([one], asked.ask)
-        if isinstance(found, Finding) and found.slug == "shape" and one.reply:
-            place, shape = _misfitting(asked.ask, one.reply.value)
+        if isinstance(found, Finding) and found.slug in MISFITS and one.reply:
+            place, what = _misfitting(asked.ask, one.reply.value)
             call = typed(one.question, names, LONG)
-            says = f"{call}{place} returned {shape}."
+            says = f"{call}{place} returned {what}."
             whole = _given(one.question, names)
             return Failing(says, whole, None, Example(one.question))
     return None
 
 
 def _misfitting(ask: Ask, value: Any) -> tuple[str, str]:
-    """Return the place and the shape of the first result of a wrong shape."""
+    """Return the place of the first result that does not fit, and what it is."""
+    if unsplit := not_split(ask.kind, value):
+        return unsplit
     parts = split(ask.kind, value)
     assert not isinstance(parts, Finding)  # it was read before
     for place, kind, part in zip(places(ask.kind), ask.kinds, parts, strict=True):
-        if isinstance(kind.read([part]), Finding):
-            return place, _shape(part)
+        if isinstance(found := kind.read([part]), Finding):
+            return place, _briefly(part) if found.slug in SHOWN else _shape(part)
     return "", _shape(value)
+
+
+def _briefly(value: Any) -> str:
+    text = shown(value)
+    return text if len(text) <= LONG else f"{text[:LONG]}..."
 
 
 def _shape(value: Any) -> str:
@@ -134,6 +144,37 @@ def _wrong(
     names: Sequence[str],
 ) -> Failing | None:
     ask = asked.ask
+    one = _chosen(ask, exchanges, held)
+    if one is None:
+        return None
+    given = read([one], ask)  # alone, in their own shapes
+    assert one.reply
+    assert not isinstance(given, Finding)
+    right = right_answers(ask, [one])
+    part = _wrong_part(ask, given, right)
+    place, entries = _entry(ask.kinds[part], given[part][0], right[part][0])
+    says = f"{typed(one.question, names, LONG)}{places(ask.kind)[part]}{place}"
+    whole = [*_given(one.question, names)]
+    mine = split(ask.kind, one.reply.value)
+    assert not isinstance(mine, Finding)
+    whole += [f"returned: {shown(value)}" for value in mine]
+    pairs = zip(ask.kinds, right, strict=True)
+    whole += [f"expected: {shown(kind.sent(values[0]))}" for kind, values in pairs]
+    compared = _compared(ask, part, given[part][0], right[part][0])
+    example = Example(one.question, one.reply.value, tuple(x[0] for x in right))
+    return Failing(f"{says} {entries}.", tuple(whole), compared, example)
+
+
+def shown_among(asked: Asked) -> NDArray[np.bool_]:
+    """Return which of the main calls is the failing call that is shown, (n,)."""
+    one = _chosen(asked.ask, asked.main, None)
+    return np.array([other is one for other in asked.main])
+
+
+def _chosen(
+    ask: Ask, exchanges: Sequence[Exchange], held: HeldOut | None
+) -> Exchange | None:
+    """Return the wrong call that is easy to work out; None if no answer is wrong."""
     if not exchanges or not ask.truth:
         return None
     S = read(exchanges, ask)
@@ -155,23 +196,7 @@ def _wrong(
     of_it = ask.gaps_of(first, S[first], T[first])
     if of_it.max() > ask.tolerance and not relative and not off:
         gap = of_it
-    one = _easiest(exchanges, gap, limit)
-    given = read([one], ask)  # alone, in their own shapes
-    assert one.reply
-    assert not isinstance(given, Finding)
-    right = right_answers(ask, [one])
-    part = _wrong_part(ask, given, right)
-    place, entries = _entry(ask.kinds[part], given[part][0], right[part][0])
-    says = f"{typed(one.question, names, LONG)}{places(ask.kind)[part]}{place}"
-    whole = [*_given(one.question, names)]
-    mine = split(ask.kind, one.reply.value)
-    assert not isinstance(mine, Finding)
-    whole += [f"returned: {shown(value)}" for value in mine]
-    pairs = zip(ask.kinds, right, strict=True)
-    whole += [f"expected: {shown(kind.sent(values[0]))}" for kind, values in pairs]
-    compared = _compared(ask, part, given[part][0], right[part][0])
-    example = Example(one.question, one.reply.value, tuple(x[0] for x in right))
-    return Failing(f"{says} {entries}.", tuple(whole), compared, example)
+    return _easiest(exchanges, gap, limit)
 
 
 def _wrong_part(ask: Ask, given: Parts, right: Parts) -> int:

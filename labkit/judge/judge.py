@@ -43,7 +43,13 @@ from labkit.judge.ask import (
     stacked,
 )
 from labkit.judge.effort import Effort
-from labkit.judge.failing_call import Failing, failing_call, for_fresh, gives_away
+from labkit.judge.failing_call import (
+    Failing,
+    failing_call,
+    for_fresh,
+    gives_away,
+    shown_among,
+)
 from labkit.judge.guard import attempt, noting, quiet, told
 from labkit.judge.in_part import by_results, in_some_calls
 from labkit.judge.kinds import Kind
@@ -163,7 +169,8 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     gap = ask.gaps(S, T)
     measured = attempt(_measured, case, S, T, gap, otherwise=())
     if (off := gap.max()) > ask.near:
-        case = replace(case, further=attempt(_further, asked))
+        failing = attempt(shown_among, asked)
+        case = replace(case, further=attempt(_further, asked), failing=failing)
         case, S, T = _with_answers(case, S, T)
         m = Matcher(case, S, T)
         named: Finding | None = attempt(_explained, m)
@@ -473,7 +480,10 @@ def _only(good: Array, case: Case, S: Parts, T: Parts) -> tuple[Case, Parts, Par
         a[good] if isinstance(a, np.ndarray) else a for a in case.arguments
     )
     given = list(compress(case.given, good))
-    rest = replace(case, arguments=arguments, S=plain(S), T=plain(T), given=given)
+    failing = None if case.failing is None else case.failing[good]
+    rest = replace(
+        case, arguments=arguments, S=plain(S), T=plain(T), given=given, failing=failing
+    )
     return rest, S, T
 
 

@@ -58,10 +58,8 @@ def split(kind: Kinds, value: Any) -> tuple[Any, ...] | Finding:
     """Return an answer's parts as they came, or what it is instead."""
     if isinstance(kind, Kind):
         return (value,)
-    flat = all(isinstance(one, Kind) for one in kind)  # no result is a tuple itself
-    whole = isinstance(value, np.ndarray) and value.ndim and flat
-    some = tuple(value) if whole else value  # a result in each row
-    if not isinstance(some, tuple | list) or len(some) != len(kind):
+    some = _results(kind, value)
+    if some is None:
         says = f"Your function returns {_given(value)}; {expected(kind)}."
         return Finding("parts", says)
     parts: tuple[Any, ...] = ()
@@ -70,6 +68,27 @@ def split(kind: Kinds, value: Any) -> tuple[Any, ...] | Finding:
             return found
         parts += found
     return parts
+
+
+def _results(kind: tuple[Any, ...], value: Any) -> Sequence[Any] | None:
+    """Return as many results as there are kinds; None if an answer has not as many."""
+    flat = all(isinstance(one, Kind) for one in kind)  # no result is a tuple itself
+    whole = isinstance(value, np.ndarray) and value.ndim and flat
+    some = tuple(value) if whole else value  # a result in each row
+    good = isinstance(some, tuple | list) and len(some) == len(kind)
+    return some if good else None
+
+
+def not_split(kind: Kinds, value: Any, place: str = "") -> tuple[str, str] | None:
+    """Return the place of the first tuple without its results, and what it is."""
+    if isinstance(kind, Kind):
+        return None
+    some = _results(kind, value)
+    if some is None:
+        return place, _given(value)
+    pairs = enumerate(zip(kind, some, strict=True))
+    found = (not_split(one, item, f"{place}[{i}]") for i, (one, item) in pairs)
+    return next(filter(None, found), None)
 
 
 def numbers(kind: Kinds, value: Any) -> Any:

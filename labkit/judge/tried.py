@@ -5,6 +5,9 @@ the fresh ones, which were asked in the same round, would be told the same.
 """
 
 import re
+from typing import Any
+
+import numpy as np
 
 from labkit.judge import near_miss
 from labkit.judge.answers import Parts, as_one, say_error
@@ -30,7 +33,8 @@ def what_is_wrong(case: Case, S: Parts, T: Parts, i: int) -> Finding:
         i: which part.
     """
     kind = case.ask.kinds[i]
-    found = kind.what_is_wrong(S[i], T[i])
+    first = _shown_first(case, len(S[i])) if kind.whole else slice(None)
+    found = kind.what_is_wrong(S[i][first], T[i][first])
     plain = Finding("off", say_error(kind.apart(S[i], T[i])))
     if near_miss.about_right(S[i], T[i]) and found.slug not in _EXACT:
         return plain
@@ -43,6 +47,15 @@ def what_is_wrong(case: Case, S: Parts, T: Parts, i: int) -> Finding:
     if wider.slug in _OF_ALL:
         return wider
     return found if _form(found.message) == _form(wider.message) else plain
+
+
+def _shown_first(case: Case, n: int) -> Any:
+    """Return the order of n calls in which the failing call that is shown is first.
+
+    A kind of counts or choices gives the numbers of its first wrong call.
+    """
+    rest = np.ones(n, bool) if case.failing is None else ~case.failing
+    return np.argsort(rest, kind="stable")
 
 
 def in_common(case: Case, S: Parts, T: Parts, i: int) -> str:

@@ -25,6 +25,12 @@ def _(J, G, qd, g):
       torques are half the correct values. Does your code omit a velocity term?
     speed-in-place-of-acceleration: your code passes qd as the acceleration and 0 as the
       velocity. Pass qd as the velocity and 0 as the acceleration
+    gravity-left-out: your code passes 0 instead of `g`, so the result contains only
+      the Coriolis and centrifugal torques. Pass `g`, because the bias contains the
+      gravity torque as well
+    velocity-left-out: your code passes 0 as the velocity, so the result is only the
+      gravity torque. Pass qd, because the bias contains the Coriolis and centrifugal
+      torques as well
     damping-added: your code adds the damping torque (1.0 qd). Omit this torque, because
       MuJoCo and task 4.8 treat it separately
     """
@@ -33,6 +39,8 @@ def _(J, G, qd, g):
         "coriolis-twice": 2 * tau - holding,
         "coriolis-half": (holding + tau) / 2,
         "speed-in-place-of-acceleration": inverse_dynamics(J, G, STILL, qd, g),
+        "gravity-left-out": inverse_dynamics(J, G, qd, STILL, 0 * g),
+        "velocity-left-out": holding,
         "damping-added": tau + qd,
     }
 

@@ -164,7 +164,7 @@ def bias_torque(
     section 8.1.
     """
     # region 4.6
-    return inverse_dynamics(J_space, G, qd, np.zeros(len(qd)), g)  # without qdd
+    return inverse_dynamics(J_space, G, qd, np.zeros(len(qd)), g)  # torque for qdd = 0
     # endregion 4.6
 
 

@@ -44,9 +44,9 @@ def _(rng):  # two of the motions rotate by less than 0.2 rad
 
 
 @row.valid(
-    "Your result is correct for exact motions, but for noisy motions it differs from "
-    "the result of the specified method. Use the rotation nearest to the sum of a "
-    "b^T, as in kabsch, and then the least-squares t for this rotation."
+    "Your result is correct for six exact motions, but for noisy motions it differs "
+    "from the result of the specified method. Use the rotation nearest to the sum of "
+    "a b^T, as in kabsch, and then the least-squares t for this rotation."
 )
 def _(A, B, X):
     return np.abs(A @ X - X @ B).max() < 1e-8
