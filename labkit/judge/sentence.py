@@ -181,9 +181,13 @@ def told(m: Any, mutant: Mutant) -> str:
     does = f"{what(mutant, given=given)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
         return f"your code {does}"
-    where = " and ".join(f"for {of_a_step(step)}" for step in steps)
-    comma = "," * ("," in where)
-    return f"your code {where}{comma} {does.removesuffix(EVERYWHERE)}"
+    return f"your code {for_steps(steps)} {does.removesuffix(EVERYWHERE)}"
+
+
+def for_steps(glosses: Sequence[str]) -> str:
+    """Return steps as they stand between "your code" and its verb."""
+    where = " and ".join(f"for {of_a_step(gloss)}" for gloss in glosses)
+    return where + "," * ("," in INDEX.sub("", where))
 
 
 def _arguments(m: Any, mutant: Mutant) -> dict[str, str]:
@@ -196,6 +200,7 @@ DETERMINERS = {
     "the", "a", "an", "its", "those", "each", "every", "both", "all", "no", "half",
     "twice", "one", "two", "four", "at",
 }  # fmt: skip
+INDEX = re.compile(r"\[[^]]*\]")  # its comma ends no clause: "entry [a, b]"
 NUMBERED = re.compile(r"\w+ (\d+|[b-z])\b")  # "row 1" and "row i"
 ADVERBS = {"from", "without", "at", "up", "after", "inward", "outward", "true"}
 
