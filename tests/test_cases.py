@@ -5,10 +5,11 @@ import pytest
 from toyrows import row_of
 
 from labkit.base.exchange import Reply
-from labkit.judge import Scalar
+from labkit.judge import Scalar, Vector
 from labkit.judge.ask import asked_of
 from labkit.judge.cases import in_cases
 from labkit.judge.merged import merged
+from labkit.judge.resized import resized, sizes_by_axis
 from labkit.judge.row import rows_of
 from labkit.lesson.day import find_day
 from robo47 import distance, planning
@@ -165,6 +166,33 @@ def test_the_list_that_leaves_the_fewest_calls_open_is_told():
     assert told(row, lambda x: x).startswith(
         "The result is correct for positive numbers."
     )
+
+
+def test_a_case_is_right_only_if_it_is_right_at_other_sizes():
+    row = row_of(
+        Vector((None,)),
+        lambda x, y: x * y.sum(),
+        lambda rng: [
+            (rng.numbers(0.5, 1, n), rng.numbers(0.5, 1, m))
+            for n, m in ((1, 1), (3, 2), (2, 4), (1, 1), (4, 3))
+        ],
+    )
+    row.cases(one_factor=lambda x, y: len(y) == 1, more=lambda x, y: len(y) > 1)
+    row.rare(
+        lambda rng: [(rng.numbers(0.5, 1, n), rng.numbers(0.5, 1, n)) for n in (1, 2)]
+    )
+    right = "The result is correct for one factor. It is wrong for more."
+    assert told(row, lambda x, y: x * y[0]) == right
+    # With one factor, only one x is asked for; of several x, each is wrong.
+    assert told(row, lambda x, y: x * y.sum() * len(x)) == ""
+
+
+def test_only_axes_of_the_same_size_in_every_call_are_resized_together():
+    calls = [(np.zeros((n, 3)), np.arange(n), np.zeros(m)) for n, m in ((2, 5), (4, 4))]
+    assert list(sizes_by_axis(calls).values()) == [[(0, 0), (1, 0)], [(2, 0)]]
+    some = list(resized(calls[:1], calls))
+    assert [[len(x) for x in call] for call in some] == [[4, 4, 5], [2, 2, 4]]
+    assert some[0][1].tolist() == [0, 0, 1, 1]
 
 
 # What the hooks of Days 11 and 12 said of these was false.

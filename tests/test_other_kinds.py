@@ -68,9 +68,9 @@ class TestWeights:
 class TestSizes:
     """Questions of several sizes in one row, and answers that follow them."""
 
-    def row(self, kind, truth, **more):
+    def row(self, kind, truth, sizes=(2, 5, 3, 4), **more):
         def inputs(rng):
-            return [(rng.uniform(1.0, 2.0, n),) for n in (2, 5, 3, 4)]
+            return [(rng.uniform(1.0, 2.0, n),) for n in sizes]
 
         return Ask(inputs, kind, truth=InTurn(truth), **more)
 
@@ -94,6 +94,25 @@ class TestSizes:
         assert short.mistake == "shape"
         assert "returns an array of the wrong shape in all 4 calls." in short.message
         assert verdict(lambda x: np.cumsum(x)[None]).mistake == "shape"
+
+    @pytest.mark.parametrize("shape", [(None,), (None, None)])
+    def test_entries_are_named_only_if_others_of_the_answer_are_right(self, shape):
+        def outer(x):
+            return x if len(shape) == 1 else np.outer(x[:1], x)
+
+        sizes = (5, 1, 3, 4) if len(shape) == 1 else (5, 2, 3, 4)
+        kind = (Vector if len(shape) == 1 else Matrix)(shape)
+        ask = self.row(kind, outer, sizes)
+        questions = [exchange.question.args[0] for exchange in round_of(ask).main]
+
+        def verdict(wrong):
+            given = [outer(x) + wrong(x) for x in questions]
+            return judged_replies(ask, [Reply(value=x, again=x) for x in given])
+
+        whole = verdict(lambda x: 1.0 * (len(x) == min(sizes)))
+        assert "all entries are correct except" not in whole.message
+        first = verdict(lambda x: 1.0 * (np.arange(len(x)) == 0) * (len(x) == 3))
+        assert "all entries are correct except" in first.message.lower()
 
     def test_a_mistake_is_made_again_in_every_size(self):
         slip = Mistake("sorted-first", "s", InTurn(lambda x: np.cumsum(np.sort(x))))

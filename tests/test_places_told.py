@@ -7,6 +7,7 @@ from toyrows import row_of
 from toyrows import told as judged
 
 from labkit.judge import Scalar
+from labkit.judge.sentence import for_steps
 from labkit.lesson.day import find_day
 from labkit.lesson.starter import function_lines
 
@@ -112,3 +113,10 @@ def test_a_mistake_in_one_result_says_what_is_with_the_other(function, slug, say
     verdict = judged(row, function)
     assert verdict.mistake == slug
     assert verdict.message.startswith(says)
+
+
+def test_the_comma_of_an_index_ends_no_clause():
+    assert for_steps(["entry [a, b] of the windows"]) == (
+        "for the entry [a, b] of the windows"
+    )
+    assert for_steps(["limits, from small to large"]).endswith("large,")

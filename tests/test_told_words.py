@@ -1,5 +1,7 @@
 """The words of the checker's sentences: one place makes each of them."""
 
+import ast
+
 import inprocess
 import numpy as np
 import pytest
@@ -20,7 +22,7 @@ from labkit.judge.matrix_kinds import part_off
 from labkit.judge.mistake import Finding, both_told
 from labkit.judge.results import as_sent, expected, flat_kinds, read
 from labkit.judge.rigid_kinds import rotation_wrong
-from labkit.judge.sentence import of_a_step
+from labkit.judge.sentence import of_a_limit, of_a_step
 from robo47.se3 import Rx
 
 
@@ -160,6 +162,24 @@ def test_truth_values_are_counted_in_calls_or_entries():
 )  # fmt: skip
 def test_a_result_of_several_has_its_name_in_the_sentence(says, named):
     assert of_result(says, "the loss") == named
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "says"),
+    [
+        ("x / y", "np.clip(x / y, -1.0, 1.0)",
+         "applies a limit that does not belong to the formula"),
+        ("np.clip(x, a, b)", "np.maximum(np.clip(x, a, b), 0.0)",
+         "applies a limit that does not belong to the formula"),
+        ("np.minimum(np.sum(x), 1)", "np.sum(x)", "omits a limit"),
+        ("min(x, 1)", "x", "omits a limit"),
+        ("np.clip(x, a, b)", "np.minimum(x, b)", "applies a limit only on one side"),
+        ("np.clip(x, a, b)", "np.clip(x, -b, b)", "applies a wrong limit"),
+    ],
+)  # fmt: skip
+def test_a_limit_is_missing_or_one_too_many(right, wrong, says):
+    of = [ast.parse(text, mode="eval").body for text in (right, wrong)]
+    assert of_a_limit(*of) == says
 
 
 MEAN, COVARIANCE = Vector((2,), called="the mean"), Covariance((2, 2), called="P")

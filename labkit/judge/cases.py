@@ -3,7 +3,8 @@
 The author of a row names cases of its calls. They are counted among the calls that were
 asked, and each is tried at fresh inputs: at fifty that are of the case, and at fifty
 that are not where a sentence says "only". A case that one call contradicts is not
-listed as right, nor as wrong.
+listed as right, nor as wrong. Calls of a case that all have one size are asked with
+other sizes as well: these can only contradict.
 """
 
 import time
@@ -23,6 +24,7 @@ from labkit.judge.draw import Draw
 from labkit.judge.merged import merged
 from labkit.judge.mistake import Finding
 from labkit.judge.replies_read import read
+from labkit.judge.resized import resized
 
 ASKED = 5  # calls of a case, and others, that were asked before it is tried
 TRIED = 50  # fresh calls of a case at which a sentence is tried, at least
@@ -112,8 +114,9 @@ def in_cases(
     known = [*asked.main, *asked.fresh]
     lists = [{says: _kept(holds) for says, holds in some.items()} for some in ask.cases]
     old = [(e.question.args, verdict(ask, e)) for e in known]
-    left = [some for some in lists if _may_be_right(some, old)]
+    left: list[Cases] = [some for some in lists if _may_be_right(some, old)]
     new = list(_tried(asked, old, left, reply_to)) if left else []
+    left = [_of_any_size(asked, some, [*old, *new], reply_to) for some in left]
     told = [found for some in left if (found := sentence(some, old, new))]
     if told:
         return min(told, key=lambda one: one[0])[1]
@@ -136,21 +139,57 @@ def _tried(
     reply_to: Callable[[Sequence[Question]], Sequence[Reply]],
 ) -> Iterator[tuple[Call, str]]:
     """Yield fresh calls with their verdicts, until these leave no case to be right."""
-    task = asked.main[0].question.task
     calls = fresh_calls(asked.ask, [call for call, _ in old], lists)
     known = [*old]
     waited = 0.0
     while waited < SECONDS and any(_may_be_right(one, known) for one in lists):
-        some = [Question(task, asked.function, c) for c in islice(calls, BATCH)]
+        some = list(islice(calls, BATCH))
         if not some:
             return
         began = time.monotonic()
-        replied = list(map(Exchange, some, reply_to(some)))
+        replied = _answered(asked, some, reply_to)
         waited += time.monotonic() - began
         for one in replied:
             if how := verdict(asked.ask, one):
                 known.append((one.question.args, how))
                 yield known[-1]
+
+
+def _of_any_size(
+    asked: Asked,
+    cases: Cases,
+    known: Answered,
+    reply_to: Callable[[Sequence[Question]], Sequence[Reply]],
+) -> Cases:
+    """Return the cases whose verdict, where it is one, calls of other sizes repeat."""
+    every = [call for call, _ in known]
+    kept = dict(cases)
+    for phrase, holds in cases.items():
+        told = {how for call, how in known if holds(call)}
+        if told not in ({RIGHT}, {WRONG}):
+            continue
+        some = resized([call for call in every if holds(call)], every)
+        calls = [call for call in some if _asked_for(asked.ask, holds, call)]
+        for one in _answered(asked, calls, reply_to):
+            if verdict(asked.ask, one) not in (NONE, *told):
+                kept.pop(phrase, None)
+    return kept
+
+
+def _asked_for(ask: Ask, holds: Callable[[Call], bool], call: Call) -> bool:
+    """Return whether a call is of a case, and one that the row allows."""
+    return holds(call) and (ask.at_edge is None or of_call(ask.at_edge, call))
+
+
+def _answered(
+    asked: Asked,
+    calls: Sequence[Call],
+    reply_to: Callable[[Sequence[Question]], Sequence[Reply]],
+) -> list[Exchange]:
+    """Return calls with their replies."""
+    task = asked.main[0].question.task
+    some = [Question(task, asked.function, call) for call in calls]
+    return list(map(Exchange, some, reply_to(some))) if some else []
 
 
 def _kept(holds: Callable[..., bool]) -> Callable[[Call], bool]:

@@ -262,7 +262,8 @@ class Vector(Kind):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
             return found
-        off = gap(S, T).max(axis=0) > RIGHT * self.scale
+        wrong = gap(S, T) > RIGHT * self.scale
+        off = wrong.any(axis=0)
         counted = [f"[{i}], counted from 0" for i in range(len(off))]
         empty = np.flatnonzero(off & ~S.any(axis=0))
         same = None not in self.shape  # else the shorter are filled up with 0
@@ -273,7 +274,9 @@ class Vector(Kind):
             )
             off_by = say_error(self.apart(S, T))
             return Finding("entries-empty", f"{says} call. {off_by}")
-        if not same and _only_the_last(gap(S, T) > RIGHT * self.scale, S, T):
+        if not _others_right(self, wrong, S, T):
+            return Finding("off", say_error(self.apart(S, T)))
+        if not same and _only_the_last(wrong, S, T):
             says = "All entries are correct except the last one."
             error = say_error(self.apart(S, T))
             return Finding("few-entries-off", f"{says} {error}")
@@ -282,6 +285,16 @@ class Vector(Kind):
         where = _entries(self.names, counted, np.flatnonzero(off))
         says = f"All entries are correct except {where}."
         return Finding("few-entries-off", f"{says} {say_error(self.apart(S, T))}")
+
+
+def _others_right(kind: Kind, wrong: Array, S: Array, T: Array) -> bool:
+    """Return whether a wrong answer has an entry that is right.
+
+    Of answers of several sizes the smaller ones are filled up with 0: these are none.
+    """
+    there = (S != 0) | (T != 0) if None in kind.shape else np.ones(S.shape, bool)
+    bad = wrong.any(axis=tuple(range(1, wrong.ndim)))
+    return bool(np.any(there[bad] & np.logical_not(wrong[bad])))
 
 
 def _entries(names: Sequence[str], counted: Sequence[str], at: Any) -> str:
@@ -342,7 +355,7 @@ def few_entries(
     apart = gap(S, T)
     wrong = apart > RIGHT * kind.scale
     rows, columns = np.nonzero(wrong.any(axis=0))
-    if not len(rows):
+    if not len(rows) or not _others_right(kind, wrong, S, T):
         return None
     sides = {"row": rows, "column": columns}
     one = {side: at[0] for side, at in sides.items() if len(set(at)) == 1}

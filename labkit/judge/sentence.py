@@ -181,9 +181,13 @@ def told(m: Any, mutant: Mutant) -> str:
     does = f"{what(mutant, given=given)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
         return f"your code {does}"
-    where = " and ".join(f"for {of_a_step(step)}" for step in steps)
-    comma = "," * ("," in where)
-    return f"your code {where}{comma} {does.removesuffix(EVERYWHERE)}"
+    return f"your code {for_steps(steps)} {does.removesuffix(EVERYWHERE)}"
+
+
+def for_steps(glosses: Sequence[str]) -> str:
+    """Return steps as they stand between "your code" and its verb."""
+    where = " and ".join(f"for {of_a_step(gloss)}" for gloss in glosses)
+    return where + "," * ("," in INDEX.sub("", where))
 
 
 def _arguments(m: Any, mutant: Mutant) -> dict[str, str]:
@@ -196,6 +200,7 @@ DETERMINERS = {
     "the", "a", "an", "its", "those", "each", "every", "both", "all", "no", "half",
     "twice", "one", "two", "four", "at",
 }  # fmt: skip
+INDEX = re.compile(r"\[[^]]*\]")  # its comma ends no clause: "entry [a, b]"
 NUMBERED = re.compile(r"\w+ (\d+|[b-z])\b")  # "row 1" and "row i"
 ADVERBS = {"from", "without", "at", "up", "after", "inward", "outward", "true"}
 
@@ -268,6 +273,8 @@ def _of_an_expression(
         taught = mutant.body.own and isinstance(node, ast.Call)
         if taught and _is_of_a_module(node.func):
             return f"omits `{ast.unparse(node.func)}`"
+    if mutant.kind == "clamp":
+        return of_a_limit(node, new)
     if mutant.kind == "sign" and is_sum and (its := _own(node.right, names)):
         return f"reverses the sign of `{its}`"
     if mutant.kind == "name" and isinstance(new, ast.Name):
@@ -280,6 +287,23 @@ def _of_an_expression(
         if all(pair):
             return f"puts `{pair[0]}` and `{pair[1]}` in the wrong order"
     return ""
+
+
+def of_a_limit(node: Any, new: ast.expr) -> str:
+    """Return what is wrong with a limit: `np.clip(x, -1, 1)` for x is one too many.
+
+    Args:
+        node: the reference's expression.
+        new: the one with the mistake.
+    """
+    before, after = map(ast.dump, (node, new))
+    if before in map(ast.dump, getattr(new, "args", ())):
+        return "applies a limit that does not belong to the formula"
+    if after in map(ast.dump, getattr(node, "args", ())):
+        return "omits a limit"
+    names = [getattr(getattr(one, "func", None), "attr", "") for one in (node, new)]
+    one_side = names[0] == "clip" and names[1] in ("maximum", "minimum")
+    return "applies a limit only on one side" if one_side else "applies a wrong limit"
 
 
 def _is_of_a_module(function: ast.expr) -> bool:

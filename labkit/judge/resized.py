@@ -1,0 +1,72 @@
+"""Calls of another size: what is right for one key may be so for one query alone.
+
+The calls of a case often have one size in all arrays, which the case does not ask for.
+Axes that have the same size in every call belong together: the rows of the keys and
+those of the values, say. They are resized together, with entries that a call has.
+"""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+EACH = 2  # calls of a case that are given each other size
+SIZES = 3  # other sizes of an axis, at most
+SEED = 4759
+Axis = tuple[int, int]  # of which argument, and which of its axes
+Call = tuple[Any, ...]
+
+
+def sizes_by_axis(calls: Sequence[Call]) -> dict[tuple[int, ...], list[Axis]]:
+    """Return the axes that all calls have, by their sizes in each call.
+
+    Those of a key belong together. Axes that never vary are left out: a position has
+    three entries.
+    """
+    found = [_axes(call) for call in calls]
+    shared = set(found[0]).intersection(*found[1:]) if found else set()
+    together: dict[tuple[int, ...], list[Axis]] = {}
+    for axis in sorted(shared):
+        together.setdefault(tuple(each[axis] for each in found), []).append(axis)
+    return {sizes: axes for sizes, axes in together.items() if len(set(sizes)) > 1}
+
+
+def resized(calls: Sequence[Call], known: Sequence[Call]) -> Iterator[Call]:
+    """Yield some calls with a size that they have in common replaced by others.
+
+    Args:
+        calls: of a case.
+        known: all calls, of which calls are some.
+    """
+    rng = np.random.default_rng(SEED)
+    for sizes, axes in sizes_by_axis(known).items():
+        of_case = {call[axes[0][0]].shape[axes[0][1]] for call in calls}
+        if len(of_case) != 1:
+            continue
+        for size in sorted(set(sizes) - of_case)[:SIZES]:
+            for at in rng.permutation(len(calls))[:EACH]:
+                yield _with_size(calls[at], axes, size, rng)
+
+
+def _axes(call: Call) -> dict[Axis, int]:
+    """Return the size of each axis of a call's arrays."""
+    return {
+        (i, axis): size
+        for i, argument in enumerate(call)
+        if isinstance(argument, np.ndarray)
+        for axis, size in enumerate(argument.shape)
+    }
+
+
+def _with_size(
+    call: Call, axes: Sequence[Axis], size: int, rng: np.random.Generator
+) -> Call:
+    """Return a call with some entries along its axes, in their order; some twice."""
+    i, axis = axes[0]
+    whole, rest = divmod(size, max(1, call[i].shape[axis]))
+    some = rng.permutation(call[i].shape[axis])[:rest]
+    at = np.sort(np.append(np.tile(np.arange(call[i].shape[axis]), whole), some))
+    changed = list(call)
+    for i, axis in axes:
+        changed[i] = np.take(changed[i], at.astype(int), axis=axis)
+    return tuple(changed)
