@@ -169,7 +169,8 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
     gap = ask.gaps(S, T)
     measured = attempt(_measured, case, S, T, gap, otherwise=())
     if (off := gap.max()) > ask.near:
-        failing = attempt(shown_among, asked)
+        whole = any(kind.whole for kind in ask.kinds)
+        failing = attempt(shown_among, asked) if whole else None
         case = replace(case, further=attempt(_further, asked), failing=failing)
         case, S, T = _with_answers(case, S, T)
         m = Matcher(case, S, T)
