@@ -67,6 +67,15 @@ def test_a_tuple_that_is_changed_is_to_be_copied_array_by_array():
     assert "second = tuple(one.copy() for one in second)" in verdict.message
 
 
+def test_an_argument_that_is_changed_and_returned_is_to_be_copied_first():
+    came = [Reply(changed=("integral",))]
+    verdict = _changed_arguments(came, Verdict("wrong", "shares-its-argument"))
+    assert verdict.message == (
+        "Your code changes its argument `integral` and returns it, so the array of the "
+        "caller changes too. Begin with a copy: `integral = integral.copy()`."
+    )
+
+
 def test_a_wrong_answer_keeps_its_name_where_an_argument_is_changed_too(check):
     line = "    R, t = T[:3, :3], T[:3, 3]"
     code = REFERENCE.replace(line, f"    T[:3, 3] *= -1\n{line}", 1)
