@@ -1,5 +1,7 @@
 """Controlled experiments: what a wrong function is told of when it is right."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -63,6 +65,26 @@ def test_a_right_answer_of_zeros_says_nothing():
 def test_a_right_answer_that_is_the_same_for_all_says_nothing():
     calls = [(float(x),) for x in (0.3, 0.7, 1.1, 2.0)]
     assert told(lambda x: np.cos(2 * x), np.cos, calls, ["x"]) == ""
+
+
+def test_the_sign_of_one_entry_is_told_and_not_that_of_all():
+    rng = np.random.default_rng(1)
+    calls = [(np.array([-abs(x[0]), *x[1:]]),) for x in rng.normal(size=(8, 4))]
+    wrong = lambda q: abs(q[0]) * q[1:]  # noqa: E731
+    says = told(wrong, lambda q: q[0] * q[1:], calls, ["q"])
+    assert says == "The result is correct whenever `q[0]` is not negative."
+
+
+def test_a_call_with_more_than_one_right_answer_says_nothing():
+    # At t = 0 a ramp has just begun, or has not.
+    ramp = lambda t, a: np.array([a * t, a if t >= 0 else 0.0])  # noqa: E731
+    never = lambda t, a: np.array([a * t, a])  # noqa: E731
+    calls = [(-t, a) for t, a in np.random.default_rng(1).uniform(0.1, 2, (8, 2))]
+    parts = [lambda some, f=f: [f(*call) for call in some] for f in (never, ramp)]
+    both = Experiments(calls, ["t", "a"], *parts, 1e-5)
+    assert "`t` is 0" in both.neutral()
+    at_edge = replace(both, at_edge=lambda t, a: abs(t) > 1e-6)
+    assert "`t` is 0" not in at_edge.neutral()
 
 
 def test_five_questions_must_agree():
@@ -153,6 +175,16 @@ def test_only_an_argument_that_may_be_told_is_doubled_at_many_calls():
     )
     assert some.doubled() == ""
     assert len(asked) == 6 + 2 * 6
+
+
+def test_an_answer_that_should_not_grow_is_told_so():
+    norms = [(np.array([a, 1.0]),) for a in (0.3, -2.0, 1.5, 0.8)]
+    wrong = lambda v: v / np.sqrt(np.linalg.norm(v))  # noqa: E731
+    says = told_of_doubling(wrong, lambda v: v / np.linalg.norm(v), norms, ["v"])
+    assert says == (
+        "If `v` is doubled, your result becomes 1.414 times as large, but it should "
+        "stay the same."
+    )
 
 
 def test_a_rotation_is_not_doubled():

@@ -52,6 +52,19 @@ def test_a_half_that_is_correct_is_yours():
     assert Twist().what_is_wrong(S, T).message == says
 
 
+class Acceleration(Twist):
+    halves = ("the angular half", "the linear half")
+
+
+def test_a_half_with_an_article_has_no_other_determiner():
+    T = np.array([[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [2.0, 1.0, 0.0, 5.0, 1.0, 4.0]])
+    S = T + np.array([0.0, 0.0, 0.0, 0.5, -0.25, 0.0])
+    says = "The angular half is correct, but the linear half is not."
+    assert Acceleration().what_is_wrong(S, T).message.startswith(says)
+    says = "The angular half and the linear half are both wrong."
+    assert Acceleration().what_is_wrong(T[::-1] ** 2, T).message.startswith(says)
+
+
 @pytest.mark.parametrize(
     ("rows", "columns", "where"),
     [

@@ -56,15 +56,24 @@ def test_an_argument_that_is_changed_in_place_is_named(
     code = REFERENCE.replace(line, f"    {mischief}\n{line}", 1)
     verdict = check(code, task)[task]
     assert (verdict.status, verdict.mistake) == ("wrong", "argument-changed")
-    assert f"changed its argument {name}" in verdict.message
+    assert f"changes its argument `{name}`" in verdict.message
     assert f"{name} = {name}.copy()" in verdict.message
 
 
 def test_a_tuple_that_is_changed_is_to_be_copied_array_by_array():
     came = [Reply(changed=("second",))]
-    verdict = _changed_arguments("aggregate", came, Verdict("passed"), {"second"})
+    verdict = _changed_arguments(came, Verdict("passed"), {"second"})
     assert verdict.mistake == "argument-changed"
     assert "second = tuple(one.copy() for one in second)" in verdict.message
+
+
+def test_an_argument_that_is_changed_and_returned_is_to_be_copied_first():
+    came = [Reply(changed=("integral",))]
+    verdict = _changed_arguments(came, Verdict("wrong", "shares-its-argument"))
+    assert verdict.message == (
+        "Your code changes its argument `integral` and returns it, so the array of the "
+        "caller changes too. Begin with a copy: `integral = integral.copy()`."
+    )
 
 
 def test_a_wrong_answer_keeps_its_name_where_an_argument_is_changed_too(check):
@@ -72,7 +81,7 @@ def test_a_wrong_answer_keeps_its_name_where_an_argument_is_changed_too(check):
     code = REFERENCE.replace(line, f"    T[:3, 3] *= -1\n{line}", 1)
     verdict = check(code, "1.3")["1.3"]
     assert (verdict.status, verdict.mistake) != ("wrong", "argument-changed")
-    assert "Besides, inverse changed its argument T" in verdict.message
+    assert "In addition, your code changes its argument `T`" in verdict.message
 
 
 def test_a_chain_that_ignores_its_path_is_told_in_its_own_task(check):

@@ -286,7 +286,7 @@ def _of_function(day: Day, task: Task, asked: Asked, source: str) -> Verdict:
     names = arguments(source, function)
     pairs = zip(names, asked.main[0].question.args, strict=False)
     tuples = {name for name, arg in pairs if isinstance(arg, Several)}
-    return _changed_arguments(function, came, verdict, tuples)
+    return _changed_arguments(came, verdict, tuples)
 
 
 def _unanswered(
@@ -338,7 +338,6 @@ def _not_utf8(script: Path) -> str:
 
 
 def _changed_arguments(
-    function: str,
     came: Sequence[Reply],
     verdict: Verdict,
     tuples: Set[str] = frozenset(),
@@ -346,8 +345,7 @@ def _changed_arguments(
     """Return the verdict with the arguments that the function left changed.
 
     Args:
-        function: its name.
-        came: its replies.
+        came: the function's replies.
         verdict: what is said of its answers.
         tuples: the names of the arguments that are tuples of arrays.
     """
@@ -355,16 +353,16 @@ def _changed_arguments(
     if not changed or verdict.status == "todo":
         return verdict
     name = changed[0]
-    copied = f"{name} = {name}.copy()"
+    copied = f"`{name} = {name}.copy()`"
     if name in tuples:
-        copied = f"{name} = tuple(one.copy() for one in {name})"
+        copied = f"`{name} = tuple(one.copy() for one in {name})`"
     if verdict.mistake == "shares-its-argument":  # a copy at the end would not help
-        says = f"{function} works in its argument {name} itself and returns it, so its "
-        says += f"caller's numbers change. Begin with a copy: {copied}"
-        return replace(verdict, message=f"{says}.")
-    says = f"{function} changed its argument {name}, which its caller still needs"
-    says += f"; work on a copy: {copied}" if name.isidentifier() else ""
+        says = f"Your code changes its argument `{name}` and returns it, so the array "
+        says += f"of the caller changes too. Begin with a copy: {copied}."
+        return replace(verdict, message=says)
+    says = f"your code changes its argument `{name}`, which the caller still needs."
+    says += f" Work on a copy: {copied}." if name.isidentifier() else ""
     if verdict.status != "passed":
-        return replace(verdict, message=f"{verdict.message} Besides, {says}.")
-    says = f"The numbers are correct, but {says}."
+        return replace(verdict, message=f"{verdict.message} In addition, {says}")
+    says = f"The numbers are correct, but {says}"
     return Verdict("wrong", "argument-changed", says, verdict.measured)

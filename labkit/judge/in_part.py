@@ -157,7 +157,8 @@ def in_some_calls(m: Matcher) -> Finding | None:
     rest = "other wrong call" if others == 1 else f"other {others} wrong calls"
     says = (
         f"One mistake explains the result in {n} of the {len(wrong)} wrong calls: "
-        f"{as_sentence(one.says)} This mistake does not explain the {rest}."
+        f"{as_sentence(one.says)} In the {rest}, the reference solution with this "
+        "mistake gives a different result."
     )
     return Finding(f"{one.slug}+other", says)
 

@@ -12,6 +12,7 @@ from robo47.checks import Array
 # That another input has, in units of what was asked. The last is far smaller: what is
 # right wherever 1 - e^(-x) is 1 to all digits, say, is not right there.
 SIZES = (-1.0, 5.0, -0.2, 0.01)
+SHORT = 4  # entries of a vector in which the sign of one entry is tried
 _SEVERAL = (1.0, -1.0, 5.0, -0.2, 0.2, -5.0)
 
 
@@ -95,6 +96,23 @@ def _of_a_vector(x: Array) -> Iterator[Neutral]:
                 sized,
                 lambda v, sign=sign: bool((sign * v >= 0).all()),  # type: ignore[misc]
                 tuple(s * np.roll(sized, i) for i, s in enumerate((5.0, 0.2))),
+            )
+        if len(x) <= SHORT:
+            yield from _of_an_entry(x)
+
+
+def _of_an_entry(x: Array) -> Iterator[Neutral]:
+    """Yield that one entry has one sign, such as the w of a quaternion."""
+    for i in range(len(x)):
+        for sign, word in ((1.0, "negative"), (-1.0, "positive")):
+            here = np.arange(len(x)) == i
+            found = np.where(here, sign * np.abs(x), x)
+            mirrored = np.where(here, found, -x)
+            yield Neutral(
+                f"`{{}}[{i}]` is not {word}",
+                found,
+                lambda v, i=i, sign=sign: bool(sign * v[i] >= 0),  # type: ignore[misc]
+                (5.0 * found, mirrored, 0.2 * mirrored),
             )
 
 

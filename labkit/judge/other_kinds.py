@@ -8,6 +8,7 @@ import numpy as np
 
 from labkit.judge.answer_mistakes import general
 from labkit.judge.answers import (
+    capitalised,
     difference,
     gap,
     in_calls,
@@ -42,12 +43,13 @@ class _Halves(Kind):
         if found := one_factor(self, S, T):
             return found
         error = say_error(self.apart(S, T))
+        yours = [x if x.startswith("the ") else f"your {x}" for x in self.halves]
         for i, slug in enumerate(("second-half-off", "first-half-off")):
             if off[i] <= RIGHT:
-                says = f"Your {self.halves[i]} is correct, but your "
-                says += f"{self.halves[1 - i]} is not. {error}"
+                right, wrong = yours[i], yours[1 - i]
+                says = f"{capitalised(right)} is correct, but {wrong} is not. {error}"
                 return Finding(slug, says)
-        says = f"Your {self.halves[0]} and your {self.halves[1]} are both wrong."
+        says = f"{capitalised(yours[0])} and {yours[1]} are both wrong."
         return Finding("both-halves-off", f"{says} {error}")
 
 

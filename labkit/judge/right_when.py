@@ -197,10 +197,12 @@ class Experiments:
                 says = f"If {name} is doubled, your result stays the same"
                 return f"{says}, but it should change."
             if its is not None and self._grows_fresh(k, grew, its):
+                should = f"become {say_factor(its)} times as large"
+                if np.isclose(its, 1.0, rtol=self.near):
+                    should = "stay the same"
                 return (
                     f"If {name} is doubled, your result becomes {say_factor(grew)} "
-                    f"times as large, but it should become {say_factor(its)} times as "
-                    "large."
+                    f"times as large, but it should {should}."
                 )
         return ""
 
@@ -400,7 +402,8 @@ class Experiments:
     ) -> bool:
         """Return whether all answers are right and enough of them say something.
 
-        Zeros say nothing, and neither do right answers that are all the same.
+        Zeros say nothing, and neither do right answers that are all the same, nor calls
+        with more than one right answer.
 
         Args:
             given: the function's answers.
@@ -411,7 +414,9 @@ class Experiments:
         agree = answered = 0
         different = False
         first: Array | None = None
-        for answer, its in zip(given, self.truth(calls), strict=True):
+        for call, answer, its in zip(calls, given, self.truth(calls), strict=True):
+            if not self._definite(call):
+                continue
             if (ok := self._is_right(answer, its)) is None:
                 continue  # the question has no answer: it says nothing
             if not ok:
