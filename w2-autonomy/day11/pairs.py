@@ -123,10 +123,16 @@ def of_ends(*wanted):
 
 
 PLACES = {
-    "segments whose closest points both lie between the ends": of_ends(False, False),
-    "segments of which only the first one is closest at an end": of_ends(True, False),
-    "segments of which only the second one is closest at an end": of_ends(False, True),
-    "segments whose closest points are both ends": of_ends(True, True),
+    "segments whose closest points both lie between the endpoints": of_ends(
+        False, False
+    ),
+    "segments of which only the first one is closest at an endpoint": of_ends(
+        True, False
+    ),
+    "segments of which only the second one is closest at an endpoint": of_ends(
+        False, True
+    ),
+    "segments whose closest points are both endpoints": of_ends(True, True),
     "parallel segments": parallel,
     "segments of length 0": point,
 }
