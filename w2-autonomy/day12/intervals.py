@@ -87,7 +87,7 @@ OPTIONS = [
         ("shifted-p", "your code uses p = (k + z^2 / 2) / (n + z^2), which is the "
                       "centre of the interval. Use p = k / n instead",
          lambda k, n: (k + Z**2 / 2) / (n + Z**2)),
-        ("failures", "your code uses the proportion of failures as p. Use p = k / n "
+        ("failures", "your code uses the fraction of failures as p. Use p = k / n "
                      "instead",
          lambda k, n: (n - k) / n),
     ]),
@@ -180,9 +180,9 @@ OPTIONS = [
                        "half-width itself", lambda a, n: a * a),
     ]),
     *_each("out", [
-        ("percent", "your code returns per cent. Return proportions instead",
+        ("percent", "your code returns per cent. Return fractions instead",
          lambda ends, n: 100 * ends),
-        ("counts", "your code returns counts. Return proportions instead",
+        ("counts", "your code returns counts. Return fractions instead",
          lambda ends, n: n * ends),
         ("cut", "your code clamps the endpoints to [0.01, 0.99]. Omit this clamp",
          lambda ends, n: np.clip(ends, 0.01, 0.99)),

@@ -98,7 +98,7 @@ def _(successes, n):
       instead
     n-for-n2: your code adds z^2 / (4 n) under the square root. Add z^2 / (4 n^2)
       instead
-    successes-for-p: your code uses k instead of the proportion k / n in the centre.
+    successes-for-p: your code uses k instead of the success rate k / n in the centre.
       Divide k by n
     failures: your code returns the interval for the n - k failures. Return the interval
       for the successes instead
@@ -204,8 +204,8 @@ def _(successes, n):
 
 @row.wrong
 def none_divides(successes, n):
-    """for n = 0, your code divides by 0. Return (0, 1), because no proportion can be
-    excluded"""
+    """for n = 0, your code divides by 0. Return (0, 1), because no success rate
+    can be excluded"""
     with np.errstate(all="ignore"):
         k, n = np.float64(successes), np.float64(n)
         p, z = k / n, 1.96
@@ -215,8 +215,8 @@ def none_divides(successes, n):
 
 @row.wrong("none-divides")
 def _(successes, n):
-    """for n = 0, your code returns (0, 0). Return (0, 1), because no proportion can be
-    excluded"""
+    """for n = 0, your code returns (0, 0). Return (0, 1), because no success rate
+    can be excluded"""
     return np.zeros(2) if n == 0 else wilson_interval(successes, n)
 
 
