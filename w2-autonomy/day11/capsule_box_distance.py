@@ -60,8 +60,8 @@ row.cases({
     "rotated boxes": rotated,
 })  # fmt: skip
 row.cases({
-    "axes whose nearest point lies between the ends": place("between"),
-    "axes whose nearest point is an end": place("end"),
+    "axes whose nearest point lies between the endpoints": place("between"),
+    "axes whose nearest point is an endpoint": place("end"),
     "axes that enter the box": place("inside"),
 })  # fmt: skip
 
