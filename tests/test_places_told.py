@@ -3,6 +3,7 @@
 import inprocess
 import numpy as np
 import pytest
+from test_own_line import told as told_of_a_file
 from toyrows import row_of
 from toyrows import told as judged
 
@@ -112,3 +113,17 @@ def test_a_mistake_in_one_result_says_what_is_with_the_other(function, slug, say
     verdict = judged(row, function)
     assert verdict.mistake == slug
     assert verdict.message.startswith(says)
+
+
+INVERTED = """
+def project(K, T_cam_world, points):
+    R, t = T_cam_world[:3, :3], T_cam_world[:3, 3]
+    p = (points - t) @ R
+    return np.array([(K @ one)[:2] / one[2] for one in p])
+"""
+
+
+def test_a_change_of_an_argument_that_the_library_refuses_is_found(student):
+    """An inverted pose puts points behind the camera, which the lab's code projects."""
+    says = told_of_a_file(10, "10.2", "project", student, INVERTED)
+    assert "replaces `T_cam_world` with its inverse." in says

@@ -185,7 +185,10 @@ class Symmetric(Matrix):
         if off[:, ~diagonal].max(initial=0.0) <= RIGHT:
             says = "Only the diagonal is wrong."
         elif off[:, diagonal].max() <= RIGHT:
+            every = (off.max(axis=0) > RIGHT)[~diagonal].all()
             says = "Only the diagonal is correct."
+            if not every:
+                says = "The diagonal is correct, but other entries are not."
         else:
             return super().what_is_wrong(S, T)
         return Finding("part-off", f"{says} {say_error(self.apart(S, T))}")

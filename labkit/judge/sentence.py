@@ -65,6 +65,12 @@ TELLING = {
     "sign", "negated", "sign-lost", "left-out", "factor", "transpose", "inverse",
     "squared", "root", "exchanged", "order", "unit", "rounded",
 }  # fmt: skip
+CLAMPS = {  # that a value has where the reference has none
+    ("maximum", "0.0"): "sets negative values to 0",
+    ("minimum", "1.0"): "sets values above 1 to 1",
+    ("clip", "0.0", "1.0"): "clamps a value to [0, 1]",
+    ("clip", "-1.0", "1.0"): "clamps a value to [-1, 1]",
+}
 ORDERED = {ast.List: "entries", ast.Tuple: "entries", ast.Call: "arguments"}
 OF_A_PART = {
     ast.Add: "omits a term", ast.Sub: "omits a term",
@@ -262,6 +268,8 @@ def _of_an_expression(
     """Return how an expression differs, with names where a line is known, or ""."""
     is_sum = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub)
     names = line.names if line else NO_NAMES
+    if mutant.kind == "clamp":
+        return of_an_added_clamp(node, new)
     if mutant.kind == "left-out":
         if isinstance(node, ast.BinOp):
             return OF_A_PART.get(type(node.op), "")
@@ -279,6 +287,16 @@ def _of_an_expression(
         pair = [_own(one, names) for one in (node.left, node.right)]
         if all(pair):
             return f"puts `{pair[0]}` and `{pair[1]}` in the wrong order"
+    return ""
+
+
+def of_an_added_clamp(node: ast.expr, new: ast.expr) -> str:
+    """Return which limits a value has that had none; "" where it had some."""
+    match new:
+        case ast.Call(ast.Attribute(attr=name), [value, *limits]):
+            given = [ast.unparse(one) for one in limits]
+            if ast.unparse(value) == ast.unparse(node):
+                return CLAMPS.get((name, *given), "")
     return ""
 
 
