@@ -270,8 +270,9 @@ def fresh_calls(
     for some, each in _rounds(ask, known):
         before = [*counts]
         for call in some:
-            of = [i for i, holds in enumerate(wanted) if holds(call)]
-            if any(counts[i] < min(ask.each_case, before[i] + each) for i in of):
+            left = (i for i, n in enumerate(counts) if n < ask.each_case)
+            of = [i for i in left if wanted[i](call)]
+            if any(counts[i] < before[i] + each for i in of):
                 for i in of:
                     counts[i] += 1
                 yield call

@@ -3,12 +3,13 @@
 import numpy as np
 
 from labkit.judge import Mask, Row
+from labkit.judge.answers import once
 from robo47.planning import segment_free_of_discs
 
 from .ways import DISC, NONE, clear, discs, usual
 
 # An edge that touches, but for rounding, is nobody's question.
-row = Row(Mask(), at_edge=clear)
+row = Row(Mask(), at_edge=clear, each_case=150)
 
 
 def typed(rng, kind):
@@ -39,6 +40,7 @@ def typed(rng, kind):
             return a, b, some
 
 
+@once  # each of the cases asks it
 def seen(a, b, discs):
     """Return what an edge is, by the first of these that it is."""
     if not len(discs):
