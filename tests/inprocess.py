@@ -174,10 +174,9 @@ def _describe(error, script):
             lines.append(trace.tb_lineno)
         trace = trace.tb_next
     line = lines[-1] if lines else getattr(error, "lineno", None)
+    callers = [number for number in dict.fromkeys(reversed(lines)) if number != line]
     kind = type(error).__name__
-    return Reply(
-        error=str(error), kind=kind, line=line, callers=tuple(lines[-2::-1][:3])
-    )
+    return Reply(error=str(error), kind=kind, line=line, callers=tuple(callers[:3]))
 
 
 @contextlib.contextmanager

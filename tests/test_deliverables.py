@@ -343,6 +343,24 @@ def test_a_prediction_that_nobody_made_is_asked_for(sheet, cells, blank):
     assert f"Predictions: {blank} still to fill in" in item.message or item.passed
 
 
+def test_all_open_parts_of_a_worksheet_are_listed_at_once(sheet):
+    table = "| number | predicted |\n|---|---|\n| sag | TODO |"
+    end = f"\n## Predictions\n\n{table}\n"
+    open_answers = worksheet(TERMS, answer="*(your answer)*") + end
+    item = sheet(open_answers)["definitions"]
+    explain, cells, there = item.message.splitlines()
+    assert explain.startswith("Can you explain? 1, 2, 3, 4, 5: answer below each")
+    assert cells == "Predictions: 1 cell still to fill in."
+    assert there == "All definitions are there."
+    assert item.upcoming == 'answers to "Can you explain?"'
+    empty = worksheet(TERMS, answer="*(your answer)*", definition=" ") + end
+    item = sheet(empty)["definitions"]
+    assert item.status == "todo"
+    assert item.message.startswith("0 of 8")
+    assert len(item.message.splitlines()) == 3
+    assert not item.upcoming
+
+
 @pytest.mark.parametrize(
     ("drawings", "third", "says"),
     [

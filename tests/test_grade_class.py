@@ -70,6 +70,8 @@ EXPECTED = {
 def command_of(root, out, *arguments):
     """Return the command that grades a class, whoever asks: CI may be root."""
     fixed = ("--out", out / "grades.csv", "--i-know-them")
+    if "--day" not in arguments:
+        fixed = (*fixed, "--day", 1)
     return [sys.executable, *map(str, (ROOT / SCRIPT, root, *fixed, *arguments))]
 
 
@@ -235,6 +237,9 @@ class TestTheClass:
     def test_is_told_in_a_few_lines(self, graded):
         lines = graded.said.splitlines()
         assert lines[0].startswith("wall: ")
+        kit = next(i for i, line in enumerate(lines) if line.startswith("kit: "))
+        assert all(len(line) < 80 for line in lines[:kit])  # the wall is described
+        lines[1:kit] = []
         assert lines[1].startswith("kit: ")
         assert lines[2].startswith(f"Day 1, {len(KINDS)} students: 7 done")
         assert lines[3] == f"graded now: {len(KINDS)}; unchanged since: 0"

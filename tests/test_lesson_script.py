@@ -1,6 +1,7 @@
 """The lab script: what the starter keeps and takes out; slips that a file shows."""
 
 import ast
+import re
 
 import pytest
 
@@ -17,6 +18,14 @@ GAP = '    raise NotImplementedError("task 1.2: write f")\n'
 DAY = find_day(1)
 SOURCE = DAY.source.read_text("utf-8")
 STARTER = make_starter(SOURCE, "src", 1)
+
+
+def test_a_starter_says_what_runs_it():
+    head = '"""Day 1.\n\n    make day1     runs this\n    python src/x.py   then\n"""\n'
+    lines = make_starter(head + SOURCE, "src", 1).splitlines()
+    assert lines[1].startswith("#     make check DAY=1 ")
+    assert re.fullmatch(r" +make run DAY=1 +runs this file .*", lines[4])
+    assert re.fullmatch(r" +make day1 +runs the kit's .*", lines[5])
 
 
 def functions(text):

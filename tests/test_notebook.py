@@ -519,13 +519,13 @@ def test_a_notebook_is_written_once_and_shows_later_edits_of_the_file(
     monkeypatch.setattr(command, "chosen_day", lambda number: day)
     monkeypatch.setattr(sys, "argv", ["make_notebook.py"])
     assert command.main() == 0
-    assert "day1.ipynb written" in capsys.readouterr().out
+    assert "day1.ipynb written" in " ".join(capsys.readouterr().out.split())
     found = json.loads(day.notebook.read_text("utf-8"))
     found["cells"].append(build.code("mine = 1"))
     day.notebook.write_text(json.dumps(found), "utf-8")
     in_file(day, 5)
     assert command.main() == 0
-    assert "Renewed from" in capsys.readouterr().out
+    assert "Renewed from" in " ".join(capsys.readouterr().out.split())
     sources = code_cells(day.notebook.read_text("utf-8"))
     assert "mine = 1" in sources
     assert any("return 5" in source for source in sources)

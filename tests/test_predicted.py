@@ -105,6 +105,39 @@ def test_a_zero_is_hidden_in_its_step_and_one_digit_is_no_fraction():
     ]
 
 
+def test_a_short_number_of_the_other_sign_is_not_the_hidden_one():
+    text = "1. a\n  2.0, -0.2 and 0.2\n"
+    assert without(text, [HiddenNumber(0.209, 0)]) == "1. a\n  2.0, -0.2 and (hidden)\n"
+    both = "1. a\n  2.0, (hidden) and (hidden)\n"
+    assert without(text, [HiddenNumber(-0.209, 0)]) == both
+
+
+LABEL = "shift of the puck, camera off by 10 mm, mm"
+
+
+@pytest.mark.parametrize(
+    ("line", "shown"),
+    [
+        ("  10 mm    10 mm", "10 mm (hidden) mm"),  # the label names one of them
+        ("  -10 mm    10 mm", "-10 mm (hidden) mm"),
+        ("  10 mm    9.69 mm", "10 mm (hidden) mm"),  # here with all its digits
+        ("  10 mm    9.7 mm", "10 mm (hidden) mm"),
+        ("  about 10 of 60", "  about (hidden) of 60"),
+    ],
+)
+def test_a_line_about_a_hidden_number_shows_no_rounding_of_it(line, shown):
+    first, last = "  10 mm   30 mm", "  30 mm   10 mm"
+    text = f"1. a\n{first}\n{line}\n"
+    hidden = HiddenNumber(9.694, len(text), LABEL)
+    after = without(f"{text}{last}\n", [hidden]).splitlines()
+    assert [words.split() for words in after[1:]] == [
+        words.split() for words in (first, shown, last)
+    ]
+    named = f"  {LABEL}: about 10"
+    (_, *after) = without(f"{text}{named}\n", [hidden]).splitlines()
+    assert after[-1] == f"  {LABEL}: about (hidden)"
+
+
 def test_a_lab_that_stops_early_shows_no_number(capsys):
     output = Output({"the sag, mm", "the rest"})
     print("1. A step of 3\n  0.1 and 7 mm\n  FAIL  it: 0.2")

@@ -137,6 +137,12 @@ def test_the_grades_of_a_week_are_not_written_over_by_those_of_another():
     assert grade.chosen(None, 2) == days_of(second)
 
 
+def test_without_a_day_the_last_one_is_graded_and_printed(monkeypatch, capsys):
+    monkeypatch.setattr(grade, "chosen_day", lambda number: find_day(number or 2))
+    assert [day.number for day in grade.chosen(None)] == [2]
+    assert capsys.readouterr().out.startswith("grading Day 2: you worked on it last")
+
+
 @pytest.mark.kit
 class TestReport:
     @pytest.fixture

@@ -122,6 +122,13 @@ def test_an_error_inside_a_helper_names_the_lines_that_called_it(check):
     assert says in check(code, "1.6")["1.6"].message
 
 
+def test_a_generator_expression_is_no_caller_on_its_own_line(check):
+    bad = "    sum(1 / 0 for _ in quat)\n"
+    code = REFERENCE.replace("    w, x, y, z = quat", f"{bad}    w, x, y, z = quat", 1)
+    (line,) = (i for i, ln in enumerate(code.splitlines(), 1) if "1 / 0" in ln)
+    assert f"occurs in line {line}: `" in check(code, "1.4")["1.4"].message
+
+
 def test_a_loop_without_an_end_is_told_in_one_sentence(check, monkeypatch):
     monkeypatch.setattr(sandbox, "CALL_SECONDS", 1.0)
     code = REFERENCE.replace("    c, s =", "    while True: pass\n    c, s =", 1)

@@ -80,7 +80,7 @@ class Report:
             return f"{named}. Stuck? make hint TASK={task.id}"
         for item in self.items:
             if not item.passed:
-                return f"the {item.name}."
+                return f"the {item.upcoming or item.name}."
         if self.items:
             return f"nothing is left to do here. Well done. {_after(self.day)}"
         return f"check the whole day: make check DAY={self.day.number}"

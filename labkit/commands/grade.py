@@ -52,7 +52,7 @@ from labkit.grade.sheet import (
     write,
 )
 from labkit.hunt.mistakes import LEVELS
-from labkit.lesson.day import Day, all_days, chosen_week, days_of, find_day
+from labkit.lesson.day import Day, all_days, chosen_day, chosen_week, days_of, find_day
 from labkit.sandbox.process import wall
 from robo47.errors import Robo47Error
 from robo47.paths import ROOT, menagerie_root, shown
@@ -68,7 +68,7 @@ def parse() -> argparse.Namespace:
     parser = cli.parser(__doc__)
     add = parser.add_argument
     add("root", type=Path, metavar="CLONES", help="folder with a clone per student")
-    add("--day", metavar="N|N-M|all", help="default: 1")
+    add("--day", metavar="N|N-M|all", help="default: the last that you worked on")
     add("--week", type=cli.week, metavar="N", help="all days of this week")
     where = "default: grades-dayN/grades.csv; of several days in grades-days/, of a "
     where += "week in grades-weekN/"
@@ -143,7 +143,7 @@ def positive(text: str) -> int:
 def admit(options: argparse.Namespace) -> None:
     """Say which wall stands, or refuse to run strangers' code without one."""
     says = "each worker's own; without one it refuses" if options.dask else wall().says
-    print(f"wall: {says}", flush=True)
+    print(cli.wrapped(f"wall: {says}", "  "), flush=True)
     why = "" if options.dask or options.i_know_them else engine.refusal()
     if why:
         raise Robo47Error(
@@ -154,6 +154,8 @@ def admit(options: argparse.Namespace) -> None:
 def chosen(text: str | None, week: int | None = None) -> list[Day]:
     """Return the days that "2", "1-7" or "all" means, or a week.
 
+    Without either, the day that was worked on last, which is printed.
+
     Raises:
         Robo47Error: it means none, or both are given.
     """
@@ -161,7 +163,13 @@ def chosen(text: str | None, week: int | None = None) -> list[Day]:
         if text:
             raise Robo47Error("--day and --week: name one of the two")
         return days_of(chosen_week(week))
-    text = text or "1"
+    if not text:
+        day = chosen_day(None)
+        print(
+            f"grading Day {day.number}: you worked on it last, or on no day yet;\n"
+            "  DAY=2, DAY=1-7, DAY=all or WEEK=1 selects others"
+        )
+        return [day]
     if text == "all":
         return all_days()
     span = re.fullmatch(r"(\d+)(?:-(\d+))?", text)

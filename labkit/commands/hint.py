@@ -63,7 +63,9 @@ def show_hint(task: Task, again: bool) -> None:
     print(f"\n{cli.wrapped(task.hints[count - 1])}")
     print(f"\n{cli.wrapped('Re-read: ' + task.read, '    ')}")
     if count == len(task.hints):
-        print("That was the last one: next, somebody to think aloud with.")
+        last = "This is the last hint. If you are still stuck, explain the task aloud "
+        last += f"to another person, or use the kit's: make borrow TASK={task.id}"
+        print(cli.wrapped(last))
 
 
 def show_solution(day: Day, task: Task) -> None:

@@ -31,7 +31,7 @@ def write(day: Day, path: Path, text: str) -> None:
         )
     path.parent.mkdir(parents=True, exist_ok=True)
     store.replace(path, text.encode())
-    print(f"{shown(path)} written: Day {day.number}, {day.title}")
+    print(cli.wrapped(f"{shown(path)} written: Day {day.number}, {day.title}", "  "))
 
 
 def renew(day: Day) -> None:
@@ -45,12 +45,14 @@ def renew(day: Day) -> None:
             f"{shown(path)} is there, and it is no notebook: move it away, then the "
             "same again"
         ) from None
-    print(f"{shown(path)} is there already and keeps what you wrote.")
+    there = f"{shown(path)} is there already and keeps what you wrote."
+    print(cli.wrapped(there, "  "))
     if renewed:
         store.replace(
             path, (json.dumps(found, indent=1, ensure_ascii=False) + "\n").encode()
         )
-        print(f"Renewed from {shown(day.work)}: {', '.join(renewed)}.")
+        says = f"Renewed from {shown(day.work)}: {', '.join(renewed)}."
+        print(cli.wrapped(says, "  "))
 
 
 def main() -> int:

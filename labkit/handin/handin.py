@@ -47,7 +47,8 @@ class Item:
     # Or "todo" (not there yet), "wrong" (there, but), "unfinished" (right as far as it
     # was looked at).
     status: str = "passed"
-    message: str = ""  # the next step; "" if it passed
+    message: str = ""  # what is left to do, in one line or several; "" if it passed
+    upcoming: str = ""  # its part that is the next step, if it is not the whole
 
     @property
     def passed(self) -> bool:

@@ -103,29 +103,49 @@ def split_sections(text: str) -> dict[str, str]:
 
 
 def _texts(sections: dict[str, str], day: Day, guide: str, where: str) -> Item:
-    """Check what is written: the definitions, the answers, and then the predictions."""
+    """Check what is written: the definitions, the answers, and the predictions.
+
+    The message has a line for each of them that is still open.
+    """
     given = _shingles(_words(guide))
     texts = {term: sections.get(term.lower(), "") for term in day.terms}
     states = {term: _definition(text, given) for term, text in texts.items()}
     item = _item("definitions", states, _DEFINE, where)
     answers = _answers(sections.get("can you explain?", ""), day.questions)
-    open_ones = [i for i, answer in enumerate(answers, start=1) if not answer]
     table = sections.get("predictions", "")
-    blank = _blank_cells(table)
     written = [_words(_without_template(text)) for text in texts.values()]
+    pasted = _pasted([*written, *answers], _reasons(table))
+    left = _still_open(answers, _blank_cells(table), pasted)
+    if not left:
+        return item
+    status = "wrong" if pasted else item.status
     if not item.passed:
-        return item
-    if pasted := _pasted([*written, *answers], _reasons(table)):
-        return Item("definitions", "wrong", f"{pasted}, in {where}.")
-    if not (open_ones or blank):
-        return item
-    says = f"All {len(day.terms)} definitions are there. "
-    if open_ones:
-        numbers = ", ".join(map(str, open_ones))
-        says += f"Can you explain? {numbers}: answer below each question, in {where}."
-    else:
-        says += f"Predictions: {count(blank, 'cell')} still to fill in, in {where}."
-    return Item("definitions", "todo", says)
+        return Item(item.name, status, "\n".join([item.message, *left.values()]))
+    (first, says), *others = left.items()
+    lines = [f"{says[:-1]}, in {where}.", *(line for _, line in others)]
+    if day.terms and not pasted:
+        lines.append("All definitions are there.")
+    status = "wrong" if pasted else "todo"
+    return Item(item.name, status, "\n".join(lines), upcoming=first)
+
+
+def _still_open(answers: list[list[str]], blank: int, pasted: str) -> dict[str, str]:
+    """Return {part of the worksheet that is still open: what to do in it}, in order.
+
+    Args:
+        answers: the words of each answer, [] where there is none.
+        blank: how many cells of the table of predictions are empty.
+        pasted: what to say of a repeated sentence, or "".
+    """
+    numbers = ", ".join(str(i) for i, words in enumerate(answers, start=1) if not words)
+    explain = f"Can you explain? {numbers}: answer below each question."
+    cells = f"Predictions: {count(blank, 'cell')} still to fill in."
+    lines = {
+        "repeated sentence": pasted,
+        'answers to "Can you explain?"': explain if numbers else "",
+        "table of predictions": cells if blank else "",
+    }
+    return {part: line for part, line in lines.items() if line}
 
 
 def _blank_cells(section: str) -> int:
@@ -149,7 +169,7 @@ def _pasted(answers: list[list[str]], reasons: list[list[str]]) -> str:
         alone = max(told[words], times - 1)
         if any(len(words) >= long and alone >= most for long, most in PASTED.items()):
             says = visible(" ".join(words), 60)
-            return f'The same sentence {times} times, but each needs its own: "{says}"'
+            return f'The same sentence {times} times, but each needs its own: "{says}".'
     return ""
 
 

@@ -2,9 +2,11 @@
 
 The output is held until the lab ends, because a lab may print a number before it
 reports it with `lab.measured`. Then each number that equals a hidden one, to the digits
-printed, is replaced by the word (hidden). If the lab stops before it has measured all
-that is hidden, every number is replaced, because any of them may be one. Headings and
-failed checks stay as they are.
+printed, is replaced by the word (hidden). A line is about a hidden number if the
+measurement follows it or if it has all words of the number's label; in such a line a
+rounding to fewer digits is replaced as well. If the lab stops before it has measured
+all that is hidden, every number is replaced, because any of them may be one. Headings
+and failed checks stay as they are.
 """
 
 import io
@@ -18,11 +20,13 @@ from typing import Any, NamedTuple
 WORD = "(hidden)"
 CLOSE = 0.15  # a number this close in the same line would reveal the hidden one
 SURE = 3  # significant digits by which a number is recognised anywhere in the output
+SCALES = (1.0, 1e3, 1e-3, 1e2)  # a unit, its thousandth, its thousand, and %
 _NUMBER = re.compile(
     r"(?<![\w.,])[-+]?(\d+(?:,\d{3})*(?:\.(\d+))?)(?:e([-+]?\d+))?(?![.,]?\w)"
 )
 _HEADING = re.compile(r"(?m)^\d+\. ")
 _OF = re.compile(r" of (\d+)\b")
+_WORD = re.compile(r"[^\W\d_]+")
 
 
 class HiddenNumber(NamedTuple):
@@ -30,6 +34,18 @@ class HiddenNumber(NamedTuple):
 
     value: float
     at: int  # the position in the output
+    label: str = ""  # the first cell of its row in the worksheet
+
+    def is_subject(self, line: str, end: int) -> bool:
+        """Return whether a line of the output is about this number.
+
+        Args:
+            line: the line, whose numbers are indented.
+            end: where it ends in the output.
+        """
+        words = set(_WORD.findall(self.label.lower()))
+        named = bool(words) and words <= set(_WORD.findall(line.lower()))
+        return named or (bool(self.label) and end == self.at)
 
 
 class PrintedNumber(NamedTuple):
@@ -37,7 +53,8 @@ class PrintedNumber(NamedTuple):
 
     start: int
     end: int
-    value: float
+    value: float  # without its sign
+    minus: bool
     half: float  # half a unit of its last digit
     digits: int  # the number of significant digits
     whole: bool  # the number has no decimals
@@ -49,20 +66,41 @@ class PrintedNumber(NamedTuple):
         return self.whole and self.digits < SURE
 
     def is_of(self, value: float) -> bool:
-        """Return whether it is this number, in its unit, in a thousandth, or in %."""
+        """Return whether it is this number, in its unit, in a thousandth, or in %.
+
+        A short number with a minus is another number than a positive one.
+        """
         if self.part == value:
             return True
-        if self.bare and not value.is_integer():
-            return False  # 1 is another number than 0.97
-        others = self.digits >= SURE and not value.is_integer()
-        scales = (1.0, 1e3, 1e-3, 1e2) if others else (1.0,)
-        off = min(abs(self.value - value * scale) for scale in scales)
-        near = self.digits >= SURE or off <= value / 20
+        short = self.digits < SURE
+        if short and (self._differs_in_sign(value) or self._is_count(value)):
+            return False
+        scales = (1.0,) if short or value.is_integer() else SCALES
+        off = self._distance(value, scales)
+        near = not short or off <= abs(value) / 20
         return near and off <= self.half * (1 + 1e-9)
+
+    def rounds(self, value: float) -> bool:
+        """Return whether it is this number, rounded to a few digits that are not 0."""
+        if not self.digits or self._differs_in_sign(value):
+            return False
+        scales = (1.0,) if value.is_integer() else SCALES
+        return self._distance(value, scales) <= self.half * (1 + 1e-9)
+
+    def _differs_in_sign(self, value: float) -> bool:
+        return self.minus and value > 0
+
+    def _is_count(self, value: float) -> bool:
+        return self.bare and not value.is_integer()  # 1 is another number than 0.97
+
+    def _distance(self, value: float, scales: tuple[float, ...]) -> float:
+        return min(abs(self.value - abs(value) * scale) for scale in scales)
 
     def tells(self, value: float) -> bool:
         """Return whether it is close to this number, as a formula's result would be."""
-        return not self.bare and abs(self.value - value) <= CLOSE * value
+        if self.bare or self._differs_in_sign(value):
+            return False
+        return self._distance(value, (1.0,)) <= CLOSE * abs(value)
 
 
 class Output(io.StringIO):
@@ -91,7 +129,8 @@ class Output(io.StringIO):
     def hide(self, number: str, value: float, says: str) -> None:
         """Hide a number, before and after this line, and print a line in its place."""
         self._missing.discard(number)
-        self._hidden.append(HiddenNumber(float(f"{abs(value):.12g}"), self.tell()))
+        rounded = float(f"{value:.12g}")
+        self._hidden.append(HiddenNumber(rounded, self.tell(), number))
         self._kept.update(says.splitlines())
         print(says)
 
@@ -127,7 +166,8 @@ def without(
     """Return a lab's output without the numbers that are hidden.
 
     A number of three digits is recognised in the whole output, a shorter one from the
-    step that measures it to the end, and a zero in that step.
+    step that measures it to the end, and a zero in that step. In a line about a hidden
+    number, each of its roundings is recognised.
 
     Args:
         text: the output.
@@ -151,12 +191,19 @@ def without(
         step = bisect_right(steps, at)
         at += len(line)
         if line.startswith("  ") and "FAIL" not in line and line.rstrip() not in kept:
-            short = [v for v, at in begun if (at <= step if v else at == step)]
-            lines[i] = _hide(line, known, short, every)
+            short = [v for v, of in begun if (of <= step if v else of == step)]
+            subjects = [one for one in hidden if one.is_subject(line, at)]
+            lines[i] = _hide(line, known, short, subjects, every)
     return "".join(lines)
 
 
-def _hide(line: str, known: set[float], short: list[float], every: bool) -> str:
+def _hide(
+    line: str,
+    known: set[float],
+    short: list[float],
+    subjects: list[HiddenNumber],
+    every: bool,
+) -> str:
     """Return a line without the hidden numbers, and without those that tell one."""
     numbers = list(_numbers(line))
 
@@ -169,10 +216,30 @@ def _hide(line: str, known: set[float], short: list[float], every: bool) -> str:
         for value in (known if one.digits >= SURE else short)
         if is_of(one, value)
     }
+    rounded = [one for subject in subjects for one in _roundings(numbers, subject)]
     for one in reversed(numbers):
-        if every or any(is_of(one, value) or one.tells(value) for value in found):
+        if (
+            every
+            or one in rounded
+            or any(is_of(one, value) or one.tells(value) for value in found)
+        ):
             line = _replaced(line, one)
     return line
+
+
+def _roundings(
+    numbers: list[PrintedNumber], hidden: HiddenNumber
+) -> list[PrintedNumber]:
+    """Return the numbers of a line about a hidden number that are roundings of it.
+
+    There are none if the line has the number with more digits. A number that is in the
+    label, too, appears in the line first as itself.
+    """
+    if any(one.digits >= SURE and one.is_of(hidden.value) for one in numbers):
+        return []
+    found = [one for one in numbers if one.rounds(hidden.value)]
+    named = [one for one in _numbers(hidden.label) if one.rounds(hidden.value)]
+    return found[len(named) :] if len(found) > len(named) else found
 
 
 def _replaced(line: str, one: PrintedNumber) -> str:
@@ -196,4 +263,6 @@ def _numbers(line: str) -> Iterator[PrintedNumber]:
         whole = _OF.match(line, found.end())
         part = value / int(whole[1]) if whole and int(whole[1]) else math.nan
         half = 0.5 * power * 10.0 ** -len(decimals or "")
-        yield PrintedNumber(*found.span(), value, half, digits, not decimals, part)
+        minus = found.group().startswith("-")
+        at = found.span()
+        yield PrintedNumber(*at, value, minus, half, digits, not decimals, part)

@@ -15,6 +15,10 @@ from robo47.errors import Robo47Error
 from robo47.paths import shown
 
 _MARKER = re.compile(r"^(?P<indent>\s*)# (?P<end>end)?region\b\s*(?P<task>\S*)\s*$")
+# The lines of a lab's docstring on how it runs, and those of its starter.
+_RUN = re.compile(r"(?m)^    make day\d+ .*\n    python src/\S+ .*$")
+_RUNS = """    make run DAY={0:<6} runs this file and logs your numbers
+    make day{0:<10} runs the kit's complete lab"""
 _DEF = re.compile(r"^def (?P<name>\w+)\(")
 
 
@@ -94,10 +98,10 @@ def make_starter(text: str, name: str, day: int) -> str:
             f'"task {region.task}: write {region.function}")',
         ]
     head = [
-        "# Yours to complete: write the body of each TODO. How it stands:",
-        f"#     make check DAY={day}        (add ARGS=--watch to check at every save)",
+        "# Yours to complete: write the body of each TODO. To test it:",
+        f"#     make check DAY={day}        (make watch DAY={day} checks at each save)",
     ]
-    return "\n".join(head + lines) + "\n"
+    return _RUN.sub(_RUNS.format(day), "\n".join(head + lines) + "\n", count=1)
 
 
 def starter_of(day: Day) -> str:

@@ -472,8 +472,8 @@ def coin(lab: Lab) -> Latent:
     print(f"  KL divergence: {kl[first].mean():.2f} nats at the dock, "
           f"{kl[~first].mean():.2f} elsewhere; ln 2 is {np.log(2):.3f}")  # fmt: skip
     lab.measured("KL divergence at the dock, nats", kl[first].mean())
-    lab.record("dock_kl", np.round(kl[first].mean() / np.log(2), 1), seed=SEED,
-               label="KL divergence at the dock / ln 2")  # fmt: skip
+    lab.record("dock_kl", np.round(kl[first].mean(), 1), seed=SEED,
+               label="KL divergence at the dock, nats")  # fmt: skip
     lab.record("else_kl", np.round(kl[~first].mean(), 1), seed=SEED,
                label="KL divergence elsewhere, nats")  # fmt: skip
     second = np.mean(mu[first] ** 2 + np.exp(logvar[first]))

@@ -137,7 +137,8 @@ class Answers:
 def describe(error: BaseException, file: str) -> dict[str, Any]:
     """Return an exception as text and the lines of the student's file that led to it.
 
-    "line" is where it happened, "callers" the calls before it, the nearest first.
+    "line" is where it happened, "callers" the other lines
+    of the calls before it, the nearest first.
     """
     lines = []
     trace = error.__traceback__
@@ -146,7 +147,8 @@ def describe(error: BaseException, file: str) -> dict[str, Any]:
             lines.append(trace.tb_lineno)
         trace = trace.tb_next
     line = lines[-1] if lines else None
-    callers = lines[-2::-1]
+    # A comprehension or a generator is a frame of its own, often on the same line.
+    callers = [number for number in dict.fromkeys(reversed(lines)) if number != line]
     try:
         text = str(error)
     except BaseException:  # its __str__ is student code too
