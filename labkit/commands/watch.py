@@ -240,7 +240,7 @@ def _finish(loop: Loop, report: "Report") -> str:
     count = f"{len(report.counted)} of {len(report.counted)} tasks pass."
     right = cli.paint(f"Day {day}: all your functions are right. {count}", "good")
     lines = [right, loop.far(), ""]
-    lines += [f"See the arm move by them: make view DAY={day} (key v)."]
+    lines += [f"See what they do: make view DAY={day} (key v)."]
     left = [item.name for item in report.items if not item.passed]
     if left:
         lines.append(f"Left to hand in: {', '.join(left)}.")
