@@ -115,14 +115,25 @@ class TestCheck:
         tasks = [e for e in found["entries"] if e["kind"] == "task"]
         assert [task["status"] for task in tasks] == ["passed"] * 8
         assert (found["done"], found["total"], found["passed"]) == (8, 13, False)
-        assert found["next"] == "the figure."
+        assert found["next"] == "the figure: make view DAY=1 ARGS=--screenshot"
 
-    def test_after_a_task_alone_the_whole_day_is_next(self, run_in, work, day):
+    def test_after_a_task_alone_the_next_open_one_is_named(self, run_in, work, day):
         solve(day, work, "make_T", "Rz")
-        for task in day.tasks[:2]:
+        for task, following in zip(day.tasks[:2], day.tasks[1:3], strict=True):
             done = run_in(CHECK, "--task", task.id)
             assert (done.returncode, "1 of 1 done." in done.stdout) == (0, True)
-            assert "Next: check the whole day: make check DAY=1" in done.stdout
+            says = f"Next: task {following.id}, {' and '.join(following.functions)}. "
+            assert f"{says}Check it: make check TASK={following.id}" in " ".join(
+                done.stdout.split()
+            )
+
+    def test_after_the_last_open_task_alone_the_whole_day_is_next(
+        self, run_in, work, day
+    ):
+        solve(day, work, *(f for task in day.tasks for f in task.functions))
+        run_in(CHECK, 1)
+        done = run_in(CHECK, "--task", "1.1")
+        assert "Next: check the whole day: make check DAY=1" in done.stdout
 
     def test_counts_no_row_of_the_kits_own_run(self, run_in, work, day, clone):
         note_kits_run(day, clone)

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from labkit.base import store
-from labkit.lesson.day import Day
+from labkit.lesson.day import Day, Task
 from labkit.lesson.untrusted_files import helpers_of
 from robo47.paths import ROOT
 
@@ -121,6 +121,18 @@ def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:
         if known is None or known._replace(says=says) != now:
             lines.append(json.dumps(now))
     store.add_lines(JOURNAL, lines, root)
+
+
+def not_passed(day: Day, checked: str) -> list[Task]:
+    """Return the other required tasks whose last check did not pass, or never was.
+
+    Args:
+        day: from its manifest.
+        checked: the id of the task that was checked just now.
+    """
+    last = {entry.task: entry.status for entry in journal()}
+    asked = [task for task in day.tasks if not task.optional and task.id != checked]
+    return [task for task in asked if last.get(task.id) != "passed"]
 
 
 def journal(root: Path = ROOT) -> list[Entry]:

@@ -40,4 +40,5 @@ def check_once(day: Day, script: Path, task: str | None, seed: int) -> "Report":
         from labkit.handin.deliverables import check_deliverables
 
         lab += check_deliverables(day, tasks_pass=done)
-    return Report(day, results, lab)
+    rest = memory.not_passed(day, task) if task and key else []
+    return Report(day, results, lab, rest)
