@@ -10,6 +10,8 @@ from test_deliverables import PICTURE, git, png, worksheet
 
 from conftest import environment_of
 from labkit import log as metrics
+from labkit.check import lab_run, memory, once
+from labkit.handin.handin import Item
 from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
@@ -225,6 +227,52 @@ class TestCheck:
             assert watcher.wait(timeout=60) == 0
         assert sum("make_T" in line and "to do" in line for line in said) == 1
         assert sum("make_T" in line and "passed" in line for line in said) == 1
+
+
+class TestTheLabsRun:
+    """It takes many times what the tasks take, so it is not repeated for nothing."""
+
+    @pytest.fixture(autouse=True)
+    def _kept_here(self, monkeypatch):
+        kept = {}
+        monkeypatch.setattr(memory.store, "read", lambda _: kept)
+        monkeypatch.setattr(memory.store, "write", lambda _, new: kept.update(new))
+
+    @pytest.fixture
+    def runs(self, monkeypatch):
+        seen = []
+        monkeypatch.setattr(lab_run, "check_lab", lambda *a: seen.append(a) or [])
+        return seen
+
+    def test_is_not_repeated_with_the_same_files(self, runs, work, day, clone):
+        work.write_text(day.source.read_text("utf-8"))
+        for _ in range(2):
+            once._lab(day, work, None, True, None)
+        assert len(runs) == 1
+        work.write_text(work.read_text() + "# other\n")
+        once._lab(day, work, None, True, None)
+        assert len(runs) == 2
+        manifest = day.own / "day.toml"
+        manifest.write_text(manifest.read_text("utf-8") + "# other\n", "utf-8")
+        once._lab(day, work, None, True, None)
+        assert len(runs) == 3
+
+    def test_is_repeated_where_it_did_not_pass(self, monkeypatch, work, day, clone):
+        answers = [[Item("lab", "wrong", "...")], [Item("lab", "unfinished", "")], []]
+        monkeypatch.setattr(lab_run, "check_lab", lambda *_: answers.pop(0))
+        found = [once._lab(day, work, None, True, None) for _ in range(4)]
+        assert [len(items) for items in found] == [1, 1, 0, 0]
+
+    def test_is_not_remembered_where_a_save_came_between(
+        self, monkeypatch, work, day, clone
+    ):
+        def saved(*_):
+            work.write_text(work.read_text() + "# saved\n")
+            return []
+
+        monkeypatch.setattr(lab_run, "check_lab", saved)
+        once._lab(day, work, None, True, None)
+        assert not memory.lab_passed(memory.lab_key(day))
 
 
 class TestHint:
