@@ -10,6 +10,8 @@ from test_deliverables import PICTURE, git, png, worksheet
 
 from conftest import environment_of
 from labkit import log as metrics
+from labkit.check import lab_run, memory, once
+from labkit.handin.handin import Item
 from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
@@ -115,14 +117,25 @@ class TestCheck:
         tasks = [e for e in found["entries"] if e["kind"] == "task"]
         assert [task["status"] for task in tasks] == ["passed"] * 8
         assert (found["done"], found["total"], found["passed"]) == (8, 13, False)
-        assert found["next"] == "the figure."
+        assert found["next"] == "the figure: make view DAY=1 ARGS=--screenshot"
 
-    def test_after_a_task_alone_the_whole_day_is_next(self, run_in, work, day):
+    def test_after_a_task_alone_the_next_open_one_is_named(self, run_in, work, day):
         solve(day, work, "make_T", "Rz")
-        for task in day.tasks[:2]:
+        for task, following in zip(day.tasks[:2], day.tasks[1:3], strict=True):
             done = run_in(CHECK, "--task", task.id)
             assert (done.returncode, "1 of 1 done." in done.stdout) == (0, True)
-            assert "Next: check the whole day: make check DAY=1" in done.stdout
+            says = f"Next: task {following.id}, {' and '.join(following.functions)}. "
+            assert f"{says}Check it: make check TASK={following.id}" in " ".join(
+                done.stdout.split()
+            )
+
+    def test_after_the_last_open_task_alone_the_whole_day_is_next(
+        self, run_in, work, day
+    ):
+        solve(day, work, *(f for task in day.tasks for f in task.functions))
+        run_in(CHECK, 1)
+        done = run_in(CHECK, "--task", "1.1")
+        assert "Next: check the whole day: make check DAY=1" in done.stdout
 
     def test_counts_no_row_of_the_kits_own_run(self, run_in, work, day, clone):
         note_kits_run(day, clone)
@@ -214,6 +227,52 @@ class TestCheck:
             assert watcher.wait(timeout=60) == 0
         assert sum("make_T" in line and "to do" in line for line in said) == 1
         assert sum("make_T" in line and "passed" in line for line in said) == 1
+
+
+class TestTheLabsRun:
+    """It takes many times what the tasks take, so it is not repeated for nothing."""
+
+    @pytest.fixture(autouse=True)
+    def _kept_here(self, monkeypatch):
+        kept = {}
+        monkeypatch.setattr(memory.store, "read", lambda _: kept)
+        monkeypatch.setattr(memory.store, "write", lambda _, new: kept.update(new))
+
+    @pytest.fixture
+    def runs(self, monkeypatch):
+        seen = []
+        monkeypatch.setattr(lab_run, "check_lab", lambda *a: seen.append(a) or [])
+        return seen
+
+    def test_is_not_repeated_with_the_same_files(self, runs, work, day, clone):
+        work.write_text(day.source.read_text("utf-8"))
+        for _ in range(2):
+            once._lab(day, work, None, True, None)
+        assert len(runs) == 1
+        work.write_text(work.read_text() + "# other\n")
+        once._lab(day, work, None, True, None)
+        assert len(runs) == 2
+        manifest = day.own / "day.toml"
+        manifest.write_text(manifest.read_text("utf-8") + "# other\n", "utf-8")
+        once._lab(day, work, None, True, None)
+        assert len(runs) == 3
+
+    def test_is_repeated_where_it_did_not_pass(self, monkeypatch, work, day, clone):
+        answers = [[Item("lab", "wrong", "...")], [Item("lab", "unfinished", "")], []]
+        monkeypatch.setattr(lab_run, "check_lab", lambda *_: answers.pop(0))
+        found = [once._lab(day, work, None, True, None) for _ in range(4)]
+        assert [len(items) for items in found] == [1, 1, 0, 0]
+
+    def test_is_not_remembered_where_a_save_came_between(
+        self, monkeypatch, work, day, clone
+    ):
+        def saved(*_):
+            work.write_text(work.read_text() + "# saved\n")
+            return []
+
+        monkeypatch.setattr(lab_run, "check_lab", saved)
+        once._lab(day, work, None, True, None)
+        assert not memory.lab_passed(memory.lab_key(day))
 
 
 class TestHint:

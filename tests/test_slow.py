@@ -12,7 +12,7 @@ from labkit.base import processes
 from labkit.base.exchange import Question, Reply
 from labkit.check import lab_run, slow
 from labkit.check.report import Report, as_text
-from labkit.check.slow import Budget, TimeUsedUp, too_slow
+from labkit.check.slow import Budget, StoppedEarly, TimeUsedUp, too_slow
 from labkit.check.tasks import TaskResult
 from labkit.grade import child
 from labkit.handin.handin import Item
@@ -225,6 +225,15 @@ class TestALabsRun:
             ran = lab_run.rehearse(day, script, box)
         assert ran.fault == ""
         assert ran.unfinished.startswith("The lab was not run to its end: ")
+
+    @pytest.mark.kit
+    def test_ends_as_soon_as_the_student_has_other_work(self, tmp_path):
+        script = tmp_path / DAY.script
+        text = DAY.source.read_text("utf-8")
+        slow = text.replace("    c, s =", "    time.sleep(0.2)\n    c, s =")
+        script.write_text(f"import time\n{slow}")
+        with Sandbox() as box, pytest.raises(StoppedEarly):
+            lab_run.rehearse(DAY, script, box, None, lambda: True)
 
     @pytest.mark.kit
     def test_gets_answers_as_the_functions_return_them(self, tmp_path, monkeypatch):

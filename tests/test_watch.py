@@ -5,13 +5,17 @@ import select
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
+from types import SimpleNamespace
 
 import pytest
 from test_check_day import solve
 
 from conftest import environment_of
 from labkit.base.keys import Keys
+from labkit.check import once
+from labkit.check.slow import StoppedEarly
+from labkit.commands import watch
 from labkit.lesson.day import find_day
 
 pytestmark = pytest.mark.kit
@@ -118,7 +122,11 @@ def on_a_terminal(clone):
         close_fds=True,
     ) as watcher:
         os.close(other)
-        yield main
+        try:
+            yield main
+        except BaseException:
+            watcher.kill()  # else the end of the block waits for it
+            raise
         os.write(main, b"q")
         assert watcher.wait(timeout=30) == 1
     os.close(main)
@@ -149,6 +157,25 @@ class TestKeys:
             with Keys() as keys:
                 assert not keys.there
                 assert keys.wait(0.01) == ""
+
+
+@pytest.mark.parametrize(("key", "saved"), [("l", False), ("", True)])
+def test_a_key_or_a_save_ends_the_run_of_the_lab(monkeypatch, capsys, key, saved):
+    """Neither was answered for a minute after the last task had passed."""
+    day = find_day(1)
+
+    def check(day, script, task, seed, stop):
+        assert stop()
+        raise StoppedEarly
+
+    monkeypatch.setattr(once, "check_once", check)
+    keys = SimpleNamespace(there=True, wait=lambda _: key)
+    with closing(watch.Loop(day, None, day.source)) as loop:
+        loop.seen = {} if saved else watch.stamps(day, day.source)
+        assert not watch._whole_day(loop, keys)
+        assert (loop.key, loop.open()) == (key, [])
+    says = "The lab's run was ended early. To run it: make check DAY=1 (c)"
+    assert says in capsys.readouterr().out
 
 
 def _line(day, function):

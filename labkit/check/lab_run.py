@@ -121,10 +121,17 @@ class LabRun(NamedTuple):
 
 
 def check_lab(
-    day: Day, script: Path, sandbox: Sandbox, deadline: Deadline | None = None
+    day: Day,
+    script: Path,
+    sandbox: Sandbox,
+    deadline: Deadline | None = None,
+    stop: Callable[[], bool] | None = None,
 ) -> list[Item]:
-    """Return what a check says of the lab: nothing where it passes to its end."""
-    fault, _, unfinished = rehearse(day, script, sandbox, deadline)
+    """Return what a check says of the lab: nothing where it passes to its end.
+
+    The arguments are those of `rehearse`.
+    """
+    fault, _, unfinished = rehearse(day, script, sandbox, deadline, stop)
     see = f"\nSee it: make run DAY={day.number}"
     if fault:
         says = f"All tasks pass, but the lab fails with your functions: {fault}."
@@ -133,7 +140,11 @@ def check_lab(
 
 
 def rehearse(
-    day: Day, script: Path, sandbox: Sandbox, deadline: Deadline | None = None
+    day: Day,
+    script: Path,
+    sandbox: Sandbox,
+    deadline: Deadline | None = None,
+    stop: Callable[[], bool] | None = None,
 ) -> LabRun:
     """Run the lab with a file's functions, each behind the sandbox's wall.
 
@@ -142,6 +153,10 @@ def rehearse(
         script: the student's file; all its tasks pass.
         sandbox: where its functions run.
         deadline: of the submission, whose tasks were asked; None is one of its own.
+        stop: asked twice a second, from another thread, whether to end the run.
+
+    Raises:
+        StoppedEarly: `stop` ended it.
     """
     if not day.source.is_file():
         return LabRun("", {})
@@ -159,7 +174,7 @@ def rehearse(
             contextlib.redirect_stdout(io.StringIO()),
             warnings.catch_warnings(action="ignore"),
             np.errstate(all="ignore"),
-            budget.bounded(),
+            budget.bounded(stop),
         ):
             try:
                 lab.main()

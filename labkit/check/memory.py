@@ -3,20 +3,23 @@
 `.robo47/statuses.json` says how tasks stand: a state counts for as long as neither the
 student's files nor the kit change. `.robo47/journal.jsonl` has a line per task whose
 verdict changed: `make report` reads from it which named mistakes were met and left
-behind. Both are read without MuJoCo and the sandbox.
+behind. Both are read without MuJoCo and the sandbox. `.robo47/labs.json` says with
+which files a lab passed to its end, so the check of the day does not run it again.
 """
 
 import contextlib
 import functools
 import hashlib
+import importlib.metadata
 import json
 import re
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from labkit.base import store
-from labkit.lesson.day import Day
+from labkit.lesson.day import Day, Task
 from labkit.lesson.untrusted_files import helpers_of
 from robo47.paths import ROOT
 
@@ -24,7 +27,7 @@ if TYPE_CHECKING:
     from labkit.check.tasks import TaskResult
     from labkit.judge import Verdict
 
-STATES, JOURNAL = "statuses.json", "journal.jsonl"
+STATES, JOURNAL, LABS = "statuses.json", "journal.jsonl", "labs.json"
 KEPT = 50  # keys
 LABEL = 40  # letters: what ends with a colon and is no longer names a result
 
@@ -98,6 +101,37 @@ def key_of(day: Day) -> str:
     return f"{day.number} {digest.hexdigest()[:16]}"
 
 
+def lab_key(day: Day) -> str:
+    """Return what changes with anything that the lab's run depends on.
+
+    It adds to `key_of` the labs, the manifests, and the versions of the packages. A run
+    has seeds of its own, so the seed of a check is no part of it.
+    """
+    kits = [*ROOT.glob("w*/src/*.py"), *ROOT.glob("robo47/panda/models/*.xml")]
+    week = [*day.folder.glob("*.toml"), *day.folder.rglob("*.xml"), *_own_texts(day)]
+    files = sorted(path for path in {*kits, *week} if path.is_file())
+    digest = hashlib.sha256(b"\0".join(path.read_bytes() for path in files))
+    versions = [sys.version, *map(importlib.metadata.version, ("numpy", "mujoco"))]
+    digest.update(" ".join(versions).encode())
+    return f"{key_of(day)} {digest.hexdigest()[:16]}"
+
+
+def _own_texts(day: Day) -> list[Path]:
+    return [*day.own.rglob("*.py"), *day.own.rglob("*.toml")]
+
+
+def lab_passed(key: str) -> bool:
+    """Return whether the lab passed to its end with all that a key stands for."""
+    return store.read(LABS).get(key) is True
+
+
+def note_lab(key: str) -> None:
+    """Keep that the lab passed to its end with all that a key stands for."""
+    memory = store.read(LABS)
+    memory.pop(key, None)
+    store.write(LABS, dict(list({**memory, key: True}.items())[-KEPT:]))
+
+
 def state_of(verdict: "Verdict") -> str:
     """Return how a task stands by a verdict on it: "passed", "wrong", "to do" ..."""
     if verdict.mistake == "does-not-load":
@@ -121,6 +155,18 @@ def note(results: Sequence["TaskResult"], root: Path = ROOT) -> None:
         if known is None or known._replace(says=says) != now:
             lines.append(json.dumps(now))
     store.add_lines(JOURNAL, lines, root)
+
+
+def not_passed(day: Day, checked: str) -> list[Task]:
+    """Return the other required tasks whose last check did not pass, or never was.
+
+    Args:
+        day: from its manifest.
+        checked: the id of the task that was checked just now.
+    """
+    last = {entry.task: entry.status for entry in journal()}
+    asked = [task for task in day.tasks if not task.optional and task.id != checked]
+    return [task for task in asked if last.get(task.id) != "passed"]
 
 
 def journal(root: Path = ROOT) -> list[Entry]:

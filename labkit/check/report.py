@@ -37,6 +37,9 @@ class Report:
     tasks: Sequence[TaskResult]  # one result per task that was checked
     # One per deliverable; empty when one task alone was checked.
     items: Sequence["Item"] = ()
+    # The other tasks that did not pass when they were last checked, where one task
+    # alone was checked.
+    rest: Sequence[Task] = ()
 
     @property
     def counted(self) -> list[TaskResult]:
@@ -80,10 +83,28 @@ class Report:
             return f"{named}. Stuck? make hint TASK={task.id}"
         for item in self.items:
             if not item.passed:
-                return f"the {item.upcoming or item.name}."
+                what = item.upcoming or item.name
+                return f"the {what}: {_command_for(self.day, item)}"
         if self.items:
             return f"nothing is left to do here. Well done. {_after(self.day)}"
+        for task in self.rest:
+            named = f"task {task.id}, {' and '.join(task.functions)}"
+            return f"{named}. Check it: make check TASK={task.id}"
         return f"check the whole day: make check DAY={self.day.number}"
+
+
+def _command_for(day: Day, item: "Item") -> str:
+    """Return the command for a deliverable that is left, or that says what it lacks."""
+    match item.name:
+        case "figure" if item.status == "todo" and day.draw:
+            return f"make figures DAY={day.number}"
+        case "figure" if item.status == "todo":
+            return f"make view DAY={day.number} ARGS=--screenshot"
+        case "lab" | "metrics":
+            return f"make run DAY={day.number}"
+        case "commit" if "\ngit add -A" in item.message:
+            return item.message.splitlines()[-1]
+    return f"make hint TASK={item.name} DAY={day.number}"
 
 
 def _after(day: Day) -> str:

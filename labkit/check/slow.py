@@ -48,6 +48,10 @@ class RunsOn(BaseException):
     """The kit's own part of a lab runs on and on; no lab catches this."""
 
 
+class StoppedEarly(BaseException):
+    """The student has other work for the checker; no lab catches this."""
+
+
 class Budget(Deadline):
     """Seconds that are left of a lab's run, and what they went for."""
 
@@ -97,10 +101,11 @@ class Budget(Deadline):
         return next(reversed(self._last), "none")
 
     @contextlib.contextmanager
-    def bounded(self) -> Iterator[None]:
+    def bounded(self, stop: Callable[[], bool] | None = None) -> Iterator[None]:
         """Raise RunsOn here as soon as the kit's own code has run on for too long.
 
-        It may be in a simulation of as many seconds as a function returned.
+        It may be in a simulation of as many seconds as a function returned. As soon as
+        `stop` returns true, raise StoppedEarly.
         """
         here = ctypes.c_ulong(threading.get_ident())
         raise_in = ctypes.pythonapi.PyThreadState_SetAsyncExc
@@ -111,6 +116,9 @@ class Budget(Deadline):
                 self._look()
                 if self.used - self._since > self.stretch:
                     raise_in(here, ctypes.py_object(RunsOn))
+                elif stop and stop():
+                    raise_in(here, ctypes.py_object(StoppedEarly))
+                    break
 
         watcher = threading.Thread(target=watch, daemon=True)
         watcher.start()

@@ -22,6 +22,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -39,6 +40,8 @@ if TYPE_CHECKING:
 
 POLL_SECONDS = 0.15  # polling sees saves on WSL and network mounts, where events do not
 BAR = 20  # places
+KEY_SECONDS = 0.05  # to look for a key during the lab's run
+LETTERS = "hrvblcq"
 KEYS = "h hint  r run  v view  b borrow  l list  c check all  q quit"
 
 
@@ -66,6 +69,8 @@ class Loop:
         self.states = {} if file else memory.task_states(day)
         self.sure = len(self.states) == len(day.tasks)
         self.warm: Process | None = Process()
+        self.seen: dict[str, tuple[int, int]] = {}  # stamps of what is checked
+        self.key = ""  # pressed during the lab's run
 
     def open(self) -> list[Task]:
         """Return the tasks that do not pass, those that count first."""
@@ -94,6 +99,12 @@ class Loop:
             report = Report(self.day, results)
             print(_without_next(as_text(report, colour=cli.wants_colour(sys.stdout))))
         return all(state == "passed" for state in found.values())
+
+    def interrupted(self, keys: Keys) -> bool:
+        """Return whether a file was saved or a key pressed; keep the key."""
+        key = keys.wait(KEY_SECONDS)
+        self.key = self.key or (key if key and key in LETTERS else "")
+        return bool(self.key) or stamps(self.day, self.script) != self.seen
 
     def close(self) -> None:
         """End the process that waits."""
@@ -158,13 +169,14 @@ def watch(day: Day, only: str | None, file: Path | None = None) -> int:
             if first or (now := stamps(day, loop.script)) != seen:
                 seen = seen if first else now
                 first = False
+                loop.seen = seen
                 if _saved(loop, keys, clear=clear):
                     return cli.EXIT_OK
                 clear = True
                 seen_again = stamps(day, loop.script)
                 if seen_again != seen:
                     continue
-            key = keys.wait(POLL_SECONDS)
+            key, loop.key = loop.key or keys.wait(POLL_SECONDS), ""
             if key == "q":
                 return cli.EXIT_FAILED if loop.open() else cli.EXIT_OK
             if key:
@@ -180,7 +192,7 @@ def _saved(loop: Loop, keys: Keys, *, clear: bool = True) -> bool:
     loop.sure = False
     print(f"Day {loop.day.number}: {loop.day.title}", flush=True)
     try:
-        done = _go_on(loop)
+        done = _go_on(loop, keys)
         if not done and not loop.only and not loop.sure:
             # A terminal shows this while the tasks run.
             with cli.busy("asking the others again"):
@@ -201,7 +213,7 @@ def _saved(loop: Loop, keys: Keys, *, clear: bool = True) -> bool:
     return False
 
 
-def _go_on(loop: Loop) -> bool:
+def _go_on(loop: Loop, keys: Keys) -> bool:
     """Check the next open task, where it passes the one after; say if all is done."""
     tried: set[str] = set()
     while left := [task for task in loop.open() if task.id not in tried]:
@@ -212,16 +224,32 @@ def _go_on(loop: Loop) -> bool:
             return False
         if loop.only:
             return True
-    return _whole_day(loop)
+    return _whole_day(loop, keys)
 
 
-def _whole_day(loop: Loop) -> bool:
-    """Check the whole day, lab and handing in; return whether it passes."""
+def _whole_day(loop: Loop, keys: Keys) -> bool:
+    """Check the whole day, lab and handing in; return whether it passes.
+
+    A save or a key ends the run of the lab.
+    """
     from labkit.check import memory
     from labkit.check.once import check_once
     from labkit.check.report import as_text
+    from labkit.check.slow import StoppedEarly
 
-    report = check_once(loop.day, loop.script, None, secrets.randbits(32))
+    key = " or a key" if keys.there else ""
+    print(f"\nChecking the whole day. A save{key} ends the lab's run.", flush=True)
+    stop = partial(loop.interrupted, keys)
+    try:
+        seed = secrets.randbits(32)
+        report = check_once(loop.day, loop.script, None, seed, stop)
+    except StoppedEarly:
+        again = f"make check DAY={loop.day.number}{' (c)' if keys.there else ''}"
+        print(f"\nThe lab's run was ended early. To run it: {again}", flush=True)
+        asked = [task.id for task in loop.day.tasks if not task.optional]
+        loop.states |= dict.fromkeys(asked, "passed")  # else the lab does not run
+        loop.sure = True
+        return False
     for result in report.tasks:
         loop.states[result.task.id] = memory.state_of(result.verdict)
     loop.sure = True
@@ -240,7 +268,7 @@ def _finish(loop: Loop, report: "Report") -> str:
     count = f"{len(report.counted)} of {len(report.counted)} tasks pass."
     right = cli.paint(f"Day {day}: all your functions are right. {count}", "good")
     lines = [right, loop.far(), ""]
-    lines += [f"See the arm move by them: make view DAY={day} (key v)."]
+    lines += [f"See what they do: make view DAY={day} (key v)."]
     left = [item.name for item in report.items if not item.passed]
     if left:
         lines.append(f"Left to hand in: {', '.join(left)}.")

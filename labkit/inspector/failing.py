@@ -109,7 +109,8 @@ def sentence_of(result: TaskResult, drawing: Drawing) -> str:
         return f"{says} See: make view TASK={other}" if other else says
     if not drawing.all:
         what = "The failing call has no configuration, pose or point to draw."
-        return f"Task {id}: {what} To read it: make check TASK={id}"
+        read = f"To read it with what was measured: make check TASK={id} ARGS=--explain"
+        return f"Task {id}: {what} {read}"
     return ""
 
 
