@@ -367,6 +367,7 @@ def test_a_change_that_no_line_of_the_file_has_is_told_of_the_correct_formula():
         "Your code gives the same result as a solution whose code for the centre of "
         "mass in the world frame opens or closes a bracket in the wrong place."
     )
+    assert "gives the same output" not in says  # the first sentence says it
 
 
 def test_a_product_in_the_wrong_order_may_lack_a_transpose():

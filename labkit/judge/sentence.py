@@ -25,6 +25,7 @@ from labkit.lesson.starter import function_lines
 MODULES = ("np", "se3", "screws", "math")
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
 ONCE = " in one place"  # of a change whose place is not quoted
+AS_A_SOLUTION = "Your code gives the same result as a solution"
 EVERYWHERE = ", in every similar line"  # of a change that is made in several places
 
 # What "your code" does, where the place of a change says no more.
@@ -79,8 +80,11 @@ def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
     It is one that stands in the student's function, else the first.
     """
     one = next((one for one in found if _in_own_words(m, one)), found[0])
+    says = _sentences(m, one)
+    if says.startswith(AS_A_SOLUTION):  # which is the evidence
+        return Finding(f"slip-{one.kind}", f"{says} {m.off()}".rstrip())
     how = m.with_error(f"{REDONE} {evidence(True)}")
-    return Finding(f"slip-{one.kind}", f"{_sentences(m, one)} {how}")
+    return Finding(f"slip-{one.kind}", f"{says} {how}")
 
 
 def _in_own_words(m: Any, mutant: Mutant) -> bool:
@@ -104,7 +108,7 @@ def _sentences(m: Any, mutant: Mutant) -> str:
     # same.
     says = told(m, mutant).removeprefix("your code ")
     which = "whose code" if says.startswith("for ") else "that"
-    return f"Your code gives the same result as a solution {which} {says}."
+    return f"{AS_A_SOLUTION} {which} {says}."
 
 
 def shows(m: Any, mutant: Mutant) -> bool:
