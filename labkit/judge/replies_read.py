@@ -76,7 +76,9 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
             if named and named[1] != task:
                 says = f"Your function calls task {named[1]}, which is not written yet."
                 return Verdict("todo", "waits", says, follows=named[1])
-            says = f"Not written yet: {reply.error or 'the task is still to do.'}"
+            known = ("", f"task {task}", f"task {task}: write {function}")
+            more = "" if reply.error in known else f": {reply.error}"
+            says = f"Not written yet{more or '.'}"
             return Verdict("todo", "unwritten", says)
         case _:
             return None
