@@ -17,6 +17,7 @@ from labkit.judge.form import is_of_its_form
 from labkit.judge.hypothesis import evidence
 from labkit.judge.mistake import REDONE, Finding
 from labkit.judge.mutant import Mutant
+from labkit.judge.operators import called
 from labkit.judge.own_line import Line, OwnFunction
 from labkit.judge.statements import Block
 from labkit.lesson.lab_module import definition
@@ -61,11 +62,16 @@ SAYS = {
     "entry-some": "uses only some entries of a list or vector",
     "added": "adds a term that does not belong to the formula",
 }
+OF_FACTORS = {  # by the factor that is one too many
+    2.0: "has a factor of two too many, or omits a division by two",
+    0.5: "omits a factor of two, or divides by two",
+}
 # Kinds that are true of the numbers, whatever algorithm gives them.
 TELLING = {
     "sign", "negated", "sign-lost", "left-out", "factor", "transpose", "inverse",
     "squared", "root", "exchanged", "order", "unit", "rounded",
 }  # fmt: skip
+OF_A_VALUE = TELLING - {"left-out", "exchanged", "order"}
 ORDERED = {ast.List: "entries", ast.Tuple: "entries", ast.Call: "arguments"}
 OF_A_PART = {
     ast.Add: "omits a term", ast.Sub: "omits a term",
@@ -153,11 +159,22 @@ def is_in_its_form(m: Any, mutant: Mutant) -> bool:
     The lab's form is the one that the guide teaches; another right function may have
     steps that the student's has not.
     """
-    if mutant.body.own or _in_own_words(m, mutant):
-        return True
     own = _own_function(m, mutant)
+    if own is None or _in_own_words(m, mutant):
+        return True
+    if not _has_its_call(own.own, mutant):
+        return False
     others = [body.function for body in m.bodies]
-    return own is None or is_of_its_form(own.own, mutant, others)
+    return mutant.body.own or is_of_its_form(own.own, mutant, others)
+
+
+def _has_its_call(own: ast.FunctionDef, mutant: Mutant) -> bool:
+    """Return whether a student calls the function whose arguments a mutant swaps."""
+    node = mutant.edits[0][0].node
+    if mutant.kind != "order" or not isinstance(node, ast.Call):
+        return True
+    calls = (one for one in ast.walk(own) if isinstance(one, ast.Call))
+    return any(called(one) == called(node) for one in calls)
 
 
 def tells(mutant: Mutant) -> bool:
@@ -248,7 +265,19 @@ def what(
     if mutant.kind == "factor" and (says := _of_a_factor(new, line, given)):
         return says + ("" if line else EVERYWHERE if several else ONCE)
     says = _of_an_expression(mutant, place.node, new, line) or SAYS[mutant.kind]
+    if mutant.kind == "factor" and not _divides(mutant, place.node):
+        says = OF_FACTORS.get(getattr(getattr(new, "left", None), "value", None), says)
     return says + EVERYWHERE * several
+
+
+def _divides(mutant: Mutant, node: ast.expr) -> bool:
+    """Return whether an expression is in a denominator, where twice makes a half."""
+    divisions = (
+        one.right
+        for one in ast.walk(mutant.body.function)
+        if isinstance(one, ast.BinOp) and isinstance(one.op, ast.Div)
+    )
+    return any(one is node for right in divisions for one in ast.walk(right))
 
 
 def _of_a_factor(new: ast.expr, line: Line | None, given: Mapping[str, str]) -> str:
@@ -290,6 +319,8 @@ def _of_an_expression(
         pair = [_own(one, names) for one in (node.left, node.right)]
         if all(pair):
             return f"puts `{pair[0]}` and `{pair[1]}` in the wrong order"
+        if isinstance(node.op, ast.Sub):
+            return "subtracts two values in the wrong order, or reverses one sign"
     return ""
 
 
@@ -364,7 +395,12 @@ def _own_function(m: Any, mutant: Mutant) -> OwnFunction | None:
 
 def glosses(mutant: Mutant) -> list[str]:
     """Return what the reference's changed lines are; none if a comment is missing."""
-    lines = [getattr(place.node, "lineno", 0) for place, _ in mutant.edits]
+    nodes = [place.node for place, _ in mutant.edits]
+    names = {node.id for node in nodes if isinstance(node, ast.Name)}
+    every = len(names) == 1 < len(nodes) and all(isinstance(n, ast.Name) for n in nodes)
+    if every and mutant.kind in OF_A_VALUE and (meaning := mutant.body.meaning(*names)):
+        return [meaning]  # each use of one variable: the mistake is where it is made
+    lines = [getattr(node, "lineno", 0) for node in nodes]
     steps = dict.fromkeys(mutant.body.glosses.get(line, "") for line in lines)
     return list(steps) if all(steps) else []
 
