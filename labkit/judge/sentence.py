@@ -266,7 +266,9 @@ def what(
         return says + ("" if line else EVERYWHERE if several else ONCE)
     says = _of_an_expression(mutant, place.node, new, line) or SAYS[mutant.kind]
     if mutant.kind == "factor" and not _divides(mutant, place.node):
-        says = OF_FACTORS.get(getattr(getattr(new, "left", None), "value", None), says)
+        match new:
+            case ast.BinOp(ast.Constant(2.0 | 0.5 as factor), ast.Mult()):
+                says = OF_FACTORS[factor]
     return says + EVERYWHERE * several
 
 
