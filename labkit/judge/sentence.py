@@ -267,8 +267,8 @@ def what(
     says = _of_an_expression(mutant, place.node, new, line) or SAYS[mutant.kind]
     if mutant.kind == "factor" and not _divides(mutant, place.node):
         match new:
-            case ast.BinOp(ast.Constant(2.0 | 0.5 as factor), ast.Mult()):
-                says = OF_FACTORS[factor]
+            case ast.BinOp(ast.Constant(float(factor)), ast.Mult()):
+                says = OF_FACTORS.get(factor, says)
     return says + EVERYWHERE * several
 
 
