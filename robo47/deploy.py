@@ -75,12 +75,12 @@ def keep_inside(
 
 
 def plan_entry(plan: ArrayLike, drawn: int, now: int) -> Array:
-    """Return the action of a plan for the present tick, (m,).
+    """Return the action of a plan for the current tick, (m,).
 
     Args:
         plan: actions for the ticks drawn, drawn + 1, ..., (K, m).
         drawn: tick of the observation that the plan was drawn from.
-        now: the present tick, not before `drawn`.
+        now: the current tick, not before `drawn`.
 
     Returns:
         The row now - drawn; the last row if the plan has run out.

@@ -38,8 +38,8 @@ def closest_points_segments(
     For parallel segments with more than one closest pair, any of these pairs.
 
     Args:
-        a0, a1: ends of the first segment, metres, (3,); equal ends are a point.
-        b0, b1: ends of the second segment, metres, (3,).
+        a0, a1: endpoints of the first segment, metres, (3,); if equal, a point.
+        b0, b1: endpoints of the second segment, metres, (3,).
 
     Returns:
         The point of the first and the point of the second segment, metres, (2, 3).
@@ -60,9 +60,9 @@ def capsule_distance(
     This is the distance of the axes minus both radii.
 
     Args:
-        a0, a1: ends of the first axis, metres, (3,).
+        a0, a1: endpoints of the first axis, metres, (3,).
         ra: radius of the first capsule, metres, at least 0.
-        b0, b1: ends of the second axis, metres, (3,).
+        b0, b1: endpoints of the second axis, metres, (3,).
         rb: radius of the second capsule, metres, at least 0.
 
     Returns:
@@ -116,7 +116,7 @@ def capsule_box_distance(
     that separates them.
 
     Args:
-        a0, a1: ends of the capsule's axis, metres, (3,).
+        a0, a1: endpoints of the capsule's axis, metres, (3,).
         r: radius of the capsule, metres, at least 0.
         T_world_box: pose of the box in the world frame, (4, 4).
         half_extents: half of the box's sides, metres, (3,), at least 0.
@@ -175,7 +175,7 @@ def capsule_aabb(a0: ArrayLike, a1: ArrayLike, r: float) -> Array:
     """Return the axis-aligned bounding box (AABB) of a capsule.
 
     Args:
-        a0, a1: ends of the capsule's axis, metres, (3,).
+        a0, a1: endpoints of the capsule's axis, metres, (3,).
         r: radius of the capsule, metres, at least 0.
 
     Returns:

@@ -59,7 +59,7 @@ def spatial_inertia(m: ArrayLike, c: ArrayLike, inertia: ArrayLike) -> Array:
 def link_inertias(
     T_links: ArrayLike, masses: ArrayLike, coms: ArrayLike, inertias: ArrayLike
 ) -> Array:
-    """Return the spatial inertia of every link at its present pose.
+    """Return the spatial inertia of every link at its current pose.
 
     A centre of mass moves with its link, R c + p, and an inertia rotates with it,
     R I R^T.

@@ -26,7 +26,7 @@ from robo47 import checks
 from robo47.checks import Array
 
 Rows = tuple[Array, Array, NDArray[Any]]  # observation, action, episode
-LEVEL = 0.05  # of `holm`: the probability that it reports any false difference
+LEVEL = 0.05  # of `holm`: the probability of any false positive
 MOST = 1000  # trials; more would overflow a binomial coefficient as a float
 
 
@@ -247,7 +247,7 @@ def holm(p: ArrayLike) -> NDArray[np.bool_]:
     """Return which of m differences are significant by Holm's method, (m,).
 
     The p-values are compared in ascending order, the i-th (from 0) with 0.05 / (m - i),
-    up to the first that is larger. The probability of any false difference is then at
+    up to the first that is larger. The probability of any false positive is then at
     most 0.05, whether or not the tests are independent.
 
     Args:

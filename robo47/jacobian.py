@@ -31,7 +31,7 @@ SINGULAR = 1e-12
 
 
 def space_jacobian(screws: ArrayLike, q: ArrayLike) -> Array:
-    """Return the space Jacobian, whose columns are the present screws of the joints.
+    """Return the space Jacobian, whose columns are the current screws of the joints.
 
     Column i is Ad(e^[S1] q1 ... e^[S(i-1)] q(i-1)) S_i (Modern Robotics, section
     5.1.1). At q = 0 the columns are the screws.

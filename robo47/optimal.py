@@ -124,7 +124,7 @@ def riccati_step(
         Q, R: cost of the step, x . Q x + u . R u, symmetric, (n, n) and (m, m).
 
     Returns:
-        P of the present state, (n, n), and K, (m, n).
+        P of the current state, (n, n), and K, (m, n).
 
     Raises:
         ValueError: wrong shape or a non-finite number.

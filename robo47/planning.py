@@ -211,7 +211,7 @@ def wilson_interval(successes: float, n: float) -> Array:
         n: number of trials; without a trial the interval is (0, 1).
 
     Returns:
-        The lower and the upper end, (2,).
+        The lower and the upper endpoint, (2,).
     """
     n = float(checks.not_negative(n, "n"))
     k = float(checks.not_negative(successes, "successes"))

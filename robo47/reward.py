@@ -165,7 +165,7 @@ def ppo_loss(
     exp(logp - old_logp), clipped to 1 - clip to 1 + clip, and A is the advantage.
 
     Args:
-        logp: log-probability of each action by the present policy, (n,).
+        logp: log-probability of each action by the current policy, (n,).
         old_logp: by the policy that drew the actions, (n,).
         advantage: (n,).
         clip: half the width of the range, above 0.

@@ -32,7 +32,7 @@ class Capsule(NamedTuple):
     """One capsule of the arm, fixed to a link."""
 
     link: int  # 1 to 7
-    a: tuple[float, float, float]  # ends of its axis in the link's axes, m
+    a: tuple[float, float, float]  # endpoints of its axis in the link's frame, m
     b: tuple[float, float, float]
     radius: float  # m
 
@@ -59,7 +59,7 @@ TINY = 1e-6  # m, the finest resolution of a test
 class World(NamedTuple):
     """The arm's environment."""
 
-    ends: Array  # end points of the capsules' axes, m, (m, 2, 3)
+    ends: Array  # endpoints of the capsules' axes, m, (m, 2, 3)
     radii: Array  # m, (m,)
     boxes: Array  # T_world_box, (b, 4, 4)
     half: Array  # half sides of the boxes, m, (b, 3)
@@ -139,7 +139,7 @@ class Shape:
         self._qpos0 = model.qpos0.copy()
 
     def ends(self, q: ArrayLike) -> Array:
-        """Return the ends of the capsules' axes in the world frame.
+        """Return the endpoints of the capsules' axes in the world frame.
 
         Args:
             q: joint angles, radians, (..., 7).

@@ -284,3 +284,18 @@ OF_THE_REVIEW = [
 def test_of_the_review_is_told_what_is_true(day, code, says):
     name = NAMES[code]
     assert says in told(rows_of(find_day(day))[name], code)
+
+
+def nearest_centre_alone(a, b, discs):
+    """Return whether an edge misses the disc whose centre is nearest to its middle."""
+    if not len(discs):
+        return True
+    away = np.linalg.norm(discs[:, :2] - (a + b) / 2, axis=1)
+    return planning.segment_free_of_discs(a, b, discs[[np.argmin(away)]])
+
+
+def test_a_case_that_is_right_with_a_short_list_alone_is_not_listed():
+    """The row draws a touching edge with one disc; here another one is beside it."""
+    row = rows_of(find_day(12))["segment_free_of_discs"]
+    right = told(row, nearest_centre_alone).partition("Sometimes wrong")[0]
+    assert "edges that touch a disc" not in right

@@ -156,6 +156,24 @@ class TestCovariance:
         verdict = told(Covariance((3, 3)), self.RIGHT, change(self.RIGHT))
         assert verdict.mistake == slug
 
+    @pytest.mark.parametrize(
+        ("kept", "where"),
+        [
+            (np.eye(4), "All entries off the diagonal"),
+            (np.tril(np.ones((4, 4))), "All entries above the diagonal"),
+            (
+                np.kron(np.eye(2), np.ones((2, 2))),
+                "The upper right and the lower left blocks",
+            ),
+        ],
+    )
+    def test_a_part_that_is_always_0_is_told(self, kept, where):
+        A = np.random.default_rng(4).normal(size=(6, 4, 4))
+        T = A @ A.mT + np.eye(4)
+        found = Matrix((4, 4)).what_is_wrong(T * kept + 0.1 * kept, T)
+        assert found.slug == "entries-empty"
+        assert found.message.startswith(f"{where} are 0 in every call. Largest error: ")
+
     def test_is_compared_up_to_its_symmetry(self):
         skew = 1e-6 * np.array([[0, 1, 2], [-1, 0, 3], [-2, -3, 0]])
         assert (

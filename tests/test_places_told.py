@@ -3,6 +3,7 @@
 import inprocess
 import numpy as np
 import pytest
+from test_own_line import told as told_of_a_file
 from toyrows import row_of
 from toyrows import told as judged
 
@@ -120,3 +121,17 @@ def test_the_comma_of_an_index_ends_no_clause():
         "for the entry [a, b] of the windows"
     )
     assert for_steps(["limits, from small to large"]).endswith("large,")
+
+
+INVERTED = """
+def project(K, T_cam_world, points):
+    R, t = T_cam_world[:3, :3], T_cam_world[:3, 3]
+    p = (points - t) @ R
+    return np.array([(K @ one)[:2] / one[2] for one in p])
+"""
+
+
+def test_a_change_of_an_argument_that_the_library_refuses_is_found(student):
+    """An inverted pose puts points behind the camera, which the lab's code projects."""
+    says = told_of_a_file(10, "10.2", "project", student, INVERTED)
+    assert "replaces `T_cam_world` with its inverse." in says

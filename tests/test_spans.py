@@ -44,6 +44,26 @@ def test_a_small_array_is_told_by_its_entries():
     assert says.endswith("affect the result for these entries?")
 
 
+def asked(H, f):
+    return Exchange(Question("1.1", "f", (H, f)))
+
+
+def test_an_argument_that_is_as_small_in_a_right_call_is_not_blamed():
+    usual, right = asked(np.eye(2), np.ones(2)), asked(np.eye(2), 1e-5 * np.ones(2))
+    failing = [asked(np.diag([1.0, 1e-6]), 1e-4 * np.ones(2))]
+    says = beyond(failing, [usual, right], ["H", "f"])
+    assert "wrong for matrices `H` with a large condition number. Such matrices" in says
+    assert says.endswith("stop an iteration too early, for these matrices?")
+    assert "very small entries of `f`" in beyond(failing, [usual], ["H", "f"])
+
+
+def test_a_pose_far_away_is_told_by_its_size():
+    far = np.eye(4)
+    far[:3, 3] = 1e6
+    says = beyond([asked(far, 1.0)], [asked(np.eye(4), 1.0)], ["T", "f"])
+    assert "very large entries of `T`" in says
+
+
 @pytest.mark.parametrize(
     ("wrong", "call", "which"),
     [

@@ -14,6 +14,7 @@ from labkit.judge import (
     Mask,
     Matrix,
     Scalar,
+    Symmetric,
     Twist,
     Vector,
 )
@@ -195,9 +196,9 @@ def test_a_result_of_several_has_its_name_in_the_sentence(says, named):
 @pytest.mark.parametrize(
     ("right", "wrong", "says"),
     [
-        ("x / y", "np.clip(x / y, -1.0, 1.0)",
-         "applies a limit that does not belong to the formula"),
-        ("np.clip(x, a, b)", "np.maximum(np.clip(x, a, b), 0.0)",
+        ("x / y", "np.clip(x / y, -1.0, 1.0)", "clamps a value to [-1, 1]"),
+        ("x + 1", "np.maximum(x + 1, 0.0)", "sets negative values to 0"),
+        ("np.clip(x, a, b)", "np.maximum(np.clip(x, a, b), 0.5)",
          "applies a limit that does not belong to the formula"),
         ("np.minimum(np.sum(x), 1)", "np.sum(x)", "omits a limit"),
         ("min(x, 1)", "x", "omits a limit"),
@@ -258,6 +259,31 @@ def test_a_result_that_is_larger_by_orders_of_magnitude_is_told_by_the_factor():
         "The result is over 1e13 times as large as expected."
     )
     assert kind.largest_error(T * [1.0, 1.0e6], T).startswith("Largest error: ")
+
+
+def test_where_some_results_alone_are_larger_the_error_of_the_others_is_told():
+    T = np.array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]])
+    S = T + np.array([[0.0, 0.5], [0.0, 3.0e13], [0.0, 0.0]])
+    assert Vector((2,), "m").largest_error(S, T) == (
+        "The result is over 1e12 times as large as expected in 1 of 3 calls. "
+        "In the other calls, the largest error is 0.5 m."
+    )
+
+
+@pytest.mark.parametrize(
+    ("every", "says"),
+    [
+        (1, "Only the diagonal is correct."),
+        (2, "The diagonal is correct, but other entries are not."),
+    ],
+)
+def test_only_the_diagonal_is_correct_where_no_other_entry_is(every, says):
+    T = np.arange(180.0).reshape(5, 6, 6)
+    T += T.mT
+    i = np.arange(6)
+    wrong = ((i[:, None] + i) % every == 0) & (i[:, None] != i)
+    off = 1.5 ** np.arange(5.0)[:, None, None] * wrong
+    assert Symmetric((6, 6)).what_is_wrong(T + off, T).message.startswith(says)
 
 
 def numbers(rng):

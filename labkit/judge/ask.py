@@ -94,7 +94,7 @@ class HeldOut:
     # `near_miss` says more.
     of_close: bool = True
     # What to say in the place of `says` of the calls that are not right, with those
-    # that are always asked beside them; None says the same of all.
+    # that are always asked, and the right ones, beside them; None says the same of all.
     told: Callable[[Sequence[Exchange], Sequence[Exchange]], str] | None = None
 
     def __post_init__(self) -> None:

@@ -270,8 +270,9 @@ def fresh_calls(
     for some, each in _rounds(ask, known):
         before = [*counts]
         for call in some:
-            of = [i for i, holds in enumerate(wanted) if holds(call)]
-            if any(counts[i] < min(ask.each_case, before[i] + each) for i in of):
+            left = (i for i, n in enumerate(counts) if n < ask.each_case)
+            of = [i for i in left if wanted[i](call)]
+            if any(counts[i] < before[i] + each for i in of):
                 for i in of:
                     counts[i] += 1
                 yield call
@@ -293,14 +294,17 @@ def _rounds(ask: Ask, known: Sequence[Call]) -> Iterator[tuple[list[Call], int]]
     """
     end = time.process_time() + SECONDS
     mixed = _mixed(ask, known)
+    lists = _lists(known)
     slow = False  # a generator that tries until a call fits may be
     for n in range(ROUNDS):
         if (begin := time.process_time()) > end:
             return
         seed = [SEED, n]
         some = [tuple(call) for draw in ask.rare for call in draw(Draw(seed))]
-        order = np.random.default_rng(seed).permutation(len(some))
-        yield [some[i] for i in order], EACH
+        drawing = np.random.default_rng(seed)
+        some = [some[i] for i in drawing.permutation(len(some))]
+        yield some, EACH
+        yield list(_longer(ask, some, lists, drawing)), EACH
         yield mixed[4 * n : 4 * n + 4], 1
         if ask.drawn and not slow:
             yield [tuple(call) for call in ask.inputs(Draw(seed))][-ask.drawn :], EACH
@@ -313,5 +317,51 @@ def _mixed(ask: Ask, known: Sequence[Call]) -> list[Call]:
     for call in known:
         shapes.setdefault(tuple(np.shape(x) for x in call), []).append(call)
     alike = max(shapes.values(), key=len)
-    at_edge = ask.at_edge
-    return [c for c in crossed(alike) if at_edge is None or of_call(at_edge, c)]
+    return [c for c in crossed(alike) if _allowed(ask, c)]
+
+
+def _allowed(ask: Ask, call: Call) -> bool:
+    """Return whether a call that was put together may be asked."""
+    return ask.at_edge is None or of_call(ask.at_edge, call)
+
+
+def _lists(known: Sequence[Call]) -> dict[int, list[Any]]:
+    """Return the arguments that are lists of any number of rows, each with its values.
+
+    Such as the discs of a world. The rows of one whose number is that of another
+    argument belong to the rows of this one, so they are no such list.
+    """
+    columns = list(zip(*known, strict=False))
+    sizes = [[_rows(x, 2) for x in column] for column in columns]
+    firsts = [[_rows(x) for x in column] for column in columns]
+    return {
+        k: [x for x in columns[k] if len(x)]
+        for k, some in enumerate(sizes)
+        if min(some) >= 0
+        and len(set(some)) > 1
+        and len({x.shape[1] for x in columns[k]}) == 1
+        and not any(some == other for m, other in enumerate(firsts) if m != k)
+    }
+
+
+def _rows(x: Any, axes: int = 0) -> int:
+    """Return how many rows an array of some axes has, of any without; else -1."""
+    fits = isinstance(x, np.ndarray) and x.ndim and (not axes or x.ndim == axes)
+    return len(x) if fits else -1
+
+
+def _longer(
+    ask: Ask,
+    some: Sequence[Call],
+    lists: Mapping[int, list[Any]],
+    rng: np.random.Generator,
+) -> Iterator[Call]:
+    """Yield calls with the rows of another call's list before or after their own."""
+    for call in some:
+        for k, values in lists.items():
+            if k >= len(call) or _rows(call[k], 2) < 0:
+                continue
+            more = values[int(rng.integers(len(values)))]
+            if _allowed(ask, (*call[:k], more, *call[k + 1 :])):
+                both = [call[k], more][:: int(rng.choice([-1, 1]))]
+                yield (*call[:k], np.concatenate(both), *call[k + 1 :])

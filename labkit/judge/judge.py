@@ -298,8 +298,10 @@ def _of_held_out(held: HeldOut, asked: Asked, exchanges: Sequence[Exchange]) -> 
     """Return what is said of held-out questions that gave a mistake away."""
     if held.told is None:
         return Finding(held.slug, held.says)
-    failing = [one for one in exchanges if gives_away(held, asked.ask, [one])]
-    return Finding(held.slug, held.told(failing, asked.main))
+    wrong = [gives_away(held, asked.ask, [one]) for one in exchanges]
+    failing = list(compress(exchanges, wrong))
+    right = compress(exchanges, [not one for one in wrong])
+    return Finding(held.slug, held.told(failing, [*asked.main, *right]))
 
 
 def _further(asked: Asked) -> Further | None:

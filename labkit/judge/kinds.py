@@ -210,12 +210,24 @@ class Kind:
         return f"{digits}{unit}"
 
     def diverges(self, S: Array, T: Array) -> str:
-        """Return that S is larger than T by orders of magnitude, or ""."""
+        """Return that S is larger than T by orders of magnitude, or "".
+
+        Where that is so of some wrong answers alone, it is told how far off the others
+        are.
+        """
         size = largest(S, self.scale) / max(1.0, largest(T, self.scale))
         if size < DIVERGES:
             return ""
         times = f"1e{np.floor(np.log10(size)):.0f}"
-        return f"The result is over {times} times as large as expected."
+        off = (gap(S, T) / self.scale).reshape(len(T), -1).max(axis=1)
+        far = off >= DIVERGES * max(1.0, largest(T, self.scale))
+        says = f"The result is over {times} times as large as expected"
+        if not np.any((off > RIGHT) & ~far):
+            return f"{says}."
+        others = (
+            f"In the other calls, the largest error is {self.apart(S[~far], T[~far])}."
+        )
+        return f"{says} {in_calls(int(far.sum()), len(T))}. {others}"
 
     def largest_error(self, S: Array, T: Array) -> str:
         """Return how far S is from T at worst as a sentence: "Largest error: 2 m.".

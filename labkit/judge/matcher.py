@@ -6,7 +6,7 @@ those that were drawn anew.
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,7 @@ from labkit.judge.hypothesis import Difference
 from labkit.judge.mutant import Body
 from labkit.judge.results import numbers
 from robo47.checks import Array
+from robo47.errors import Robo47Error
 
 Code = Callable[..., Any]  # of one question's arguments, or an InTurn
 # Lines of a call that takes too long to screen all hypotheses there, and of one that
@@ -162,15 +163,19 @@ class Matcher:
         """A right function of one question that comes to an end; None without one.
 
         Other arguments may keep a loop busy for ever, so it is the lab's own, whose
-        steps are limited, where that has loops.
+        steps are limited, where that has loops. The library refuses some arguments
+        which the lab takes, such as a point behind the camera of an inverted pose.
         """
         truth = self.ask.truth
         if not isinstance(truth, InTurn):
             return None
         body = next(iter(self.ask.bodies), None)
-        if body is None or not body.loops:
+        if body is None:
             return truth.function
-        return self.bodies[0].compiled()
+        if body.loops:
+            return self.bodies[0].compiled()
+        own = body.compiled()
+        return own and partial(_unless_refused, truth.function, own)
 
     @cached_property
     def bodies(self) -> Sequence[Body]:
@@ -287,6 +292,14 @@ class Matcher:
     def with_error(self, evidence: str) -> str:
         """Return how far the answers are off, and what explains them, as sentences."""
         return " ".join(filter(None, [self.off(), f"{capitalised(evidence)}."]))
+
+
+def _unless_refused(function: Code, other: Code, *args: Any) -> Any:
+    """Return a function's answer, or another's to arguments that the first refuses."""
+    try:
+        return function(*args)
+    except (ValueError, Robo47Error):
+        return other(*args)
 
 
 def row(answer: Parts) -> Array:

@@ -68,6 +68,7 @@ class Matrix(Kind):
             few_entries(self, S, T)
             or one_factor(self, S, T)
             or part_off(self, S, T)
+            or part_empty(self, S, T)
             or Finding("off", say_error(self.apart(S, T)))
         )
 
@@ -95,6 +96,32 @@ def part_off(kind: Matrix, S: Array, T: Array) -> Finding | None:
     if alone and (found := one_factor(kind, S[:, wrong], T[:, wrong])):
         off = found.message.replace("of the result", "of this part", 1)
     return Finding("part-off", f"{says} {off}")
+
+
+def part_empty(kind: Matrix, S: Array, T: Array) -> Finding | None:
+    """Return which part of a square matrix is 0 in every call, and should not be."""
+    n, m = S.shape[1:]
+    if n != m or len(S) < 2:
+        return None
+    wrong: Any = (gap(S, T) / kind.scale > RIGHT).any(axis=0)
+    zero: Any = ~S.any(axis=0)
+    for where, part in _parts(n):
+        if zero[part].all() and wrong[part].all() and not (wrong & zero)[~part].any():
+            says = f"{where} are 0 in every call. {say_error(kind.apart(S, T))}"
+            return Finding("entries-empty", says)
+    return None
+
+
+def _parts(n: int) -> Iterator[tuple[str, Any]]:
+    """Yield parts of a square matrix, in words and as a mask."""
+    i = np.arange(n)
+    above = i[:, None] < i
+    yield "All entries off the diagonal", above | above.T
+    yield "All entries above the diagonal", above
+    yield "All entries below the diagonal", above.T
+    if n % 2 == 0 and n > 2:
+        right = np.kron([[0, 1], [0, 0]], np.ones((n // 2, n // 2))).astype(bool)
+        yield "The upper right and the lower left blocks", right | right.T
 
 
 def _blocks(kind: Matrix, wrong: Any) -> str:
@@ -185,7 +212,10 @@ class Symmetric(Matrix):
         if off[:, ~diagonal].max(initial=0.0) <= RIGHT:
             says = "Only the diagonal is wrong."
         elif off[:, diagonal].max() <= RIGHT:
+            every = (off.max(axis=0) > RIGHT)[~diagonal].all()
             says = "Only the diagonal is correct."
+            if not every:
+                says = "The diagonal is correct, but other entries are not."
         else:
             return super().what_is_wrong(S, T)
         return Finding("part-off", f"{says} {say_error(self.apart(S, T))}")

@@ -72,6 +72,12 @@ TELLING = {
     "squared", "root", "exchanged", "order", "unit", "rounded",
 }  # fmt: skip
 OF_A_VALUE = TELLING - {"left-out", "exchanged", "order"}
+CLAMPS = {  # that a value has where the reference has none
+    ("maximum", "0.0"): "sets negative values to 0",
+    ("minimum", "1.0"): "sets values above 1 to 1",
+    ("clip", "0.0", "1.0"): "clamps a value to [0, 1]",
+    ("clip", "-1.0", "1.0"): "clamps a value to [-1, 1]",
+}
 ORDERED = {ast.List: "entries", ast.Tuple: "entries", ast.Call: "arguments"}
 OF_A_PART = {
     ast.Add: "omits a term", ast.Sub: "omits a term",
@@ -335,12 +341,22 @@ def of_a_limit(node: Any, new: ast.expr) -> str:
     """
     before, after = map(ast.dump, (node, new))
     if before in map(ast.dump, getattr(new, "args", ())):
-        return "applies a limit that does not belong to the formula"
+        return _of_an_added_clamp(new)
     if after in map(ast.dump, getattr(node, "args", ())):
         return "omits a limit"
     names = [getattr(getattr(one, "func", None), "attr", "") for one in (node, new)]
     one_side = names[0] == "clip" and names[1] in ("maximum", "minimum")
     return "applies a limit only on one side" if one_side else "applies a wrong limit"
+
+
+def _of_an_added_clamp(new: ast.expr) -> str:
+    """Return which limits a value has that has none in the formula."""
+    match new:
+        case ast.Call(ast.Attribute(attr=name), [_, *limits]):
+            given = (name, *map(ast.unparse, limits))
+            if given in CLAMPS:
+                return CLAMPS[given]
+    return "applies a limit that does not belong to the formula"
 
 
 def _is_of_a_module(function: ast.expr) -> bool:

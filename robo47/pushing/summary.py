@@ -85,7 +85,7 @@ def figures(result: Result) -> list[tuple[str, str, str]]:
         (
             "largest distance of an observation from the demonstrations",
             f"{result.new:.2f} standard deviations",
-            f"an alarm above {result.limit:.2f}, three times in a row",
+            f"an alarm above {result.limit:.2f}, at three consecutive ticks",
         ),
     ]
     if not np.isnan(result.time):

@@ -176,7 +176,7 @@ def _(box_a, box_b):
       both boxes
     corners-only: your code tests whether a corner of one box lies in the other box.
       Compare the intervals on each axis instead, because two boxes can overlap even if
-      no corner of either box lies in the other => both
+      no corner of either box lies in the other
     corners-only 2: your code tests whether a corner of `box_b` lies in `box_a`. Compare
       the intervals on each axis instead, because two boxes can overlap even if no
       corner of `box_b` lies in `box_a`

@@ -49,7 +49,7 @@ def rotated(a0, a1, r, T, half_extents):
 
 
 # Ten sections and less leave some 1e-4: near in method.
-row = Row(Scalar(unit="m"), near=1e-3, unnamed=above, before_slips=False)
+row = Row(Scalar(unit="m"), near=1e-3, unnamed=above, before_slips=False, each_case=100)
 row.cases({
     "boxes at the origin that are not rotated": (
         lambda *call: not rotated(*call) and not call[3][:3, 3].any()
@@ -60,8 +60,8 @@ row.cases({
     "rotated boxes": rotated,
 })  # fmt: skip
 row.cases({
-    "axes whose nearest point lies between the ends": place("between"),
-    "axes whose nearest point is an end": place("end"),
+    "axes whose nearest point lies between the endpoints": place("between"),
+    "axes whose nearest point is an endpoint": place("end"),
     "axes that enter the box": place("inside"),
 })  # fmt: skip
 

@@ -7,7 +7,7 @@ from robo47.distance import capsule_distance, closest_points_segments
 
 from . import pairs
 
-row = Row(Scalar(unit="m"))
+row = Row(Scalar(unit="m"), each_case=150)
 
 
 @row.inputs

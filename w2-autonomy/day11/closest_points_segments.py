@@ -12,6 +12,7 @@ from .bowl import bowl, cut, ends_only, lines, thrice
 row = Row(
     Points((2, 3), names=("first's point", "second's point")),
     at_edge=pairs.crosses,
+    each_case=150,
     copies=False,  # an end itself is as good as a copy of it
     held_out=[
         HeldOut(

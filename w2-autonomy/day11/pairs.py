@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from labkit.judge.answers import once
 from robo47 import distance, se3
 from robo47.checks import Array
 
@@ -115,18 +116,26 @@ def point(a0, a1, b0, b1) -> bool:
 def of_ends(*wanted):
     """Return the case of segments whose closest points are ends, or not."""
 
-    def holds(a0, a1, b0, b1):
-        some = a0, a1, b0, b1
-        return not (point(*some) or parallel(*some)) and at_ends(*some) == wanted
+    return lambda *call: _place(*call) == wanted
 
-    return holds
+
+@once  # each of the cases asks it
+def _place(*call):
+    """Return which closest point is an end; None of parallel segments and points."""
+    return None if point(*call) or parallel(*call) else at_ends(*call)
 
 
 PLACES = {
-    "segments whose closest points both lie between the ends": of_ends(False, False),
-    "segments of which only the first one is closest at an end": of_ends(True, False),
-    "segments of which only the second one is closest at an end": of_ends(False, True),
-    "segments whose closest points are both ends": of_ends(True, True),
+    "segments whose closest points both lie between the endpoints": of_ends(
+        False, False
+    ),
+    "segments of which only the first one is closest at an endpoint": of_ends(
+        True, False
+    ),
+    "segments of which only the second one is closest at an endpoint": of_ends(
+        False, True
+    ),
+    "segments whose closest points are both endpoints": of_ends(True, True),
     "parallel segments": parallel,
     "segments of length 0": point,
 }
@@ -143,6 +152,8 @@ def seldom(rng) -> list[tuple[Array, ...]]:
         first = start + far * along + shift
         size = float(rng.choice([-2.0, -1.0, 0.5, 1.0, 2.0]))
         found.append((start, start + along, first, first + size * along))
+        hardly = along + float(rng.choice([0.01, 0.05, 0.2])) * rng.numbers(-1, 1, 3)
+        found.append((start, start + along, first, first + size * hardly))
     a, (b0, b1) = rng.numbers(-1, 1, 3), rng.numbers(-1, 1, 2, 3)
     return [*found, (a, a.copy(), b0, b1), (b0, b1, a, a.copy())]
 

@@ -173,7 +173,7 @@ def test_what_a_mistake_does_to_the_distance_of_pairs_and_where_it_hides():
     for name, slug in {
         "s and t not clamped": "not-clamped",
         "s and t clamped independently": "clamped-apart",
-        "only the ends are compared": "ends-only",
+        "only the endpoints are compared": "ends-only",
         "the two points swapped": "points-swapped",
     }.items():  # fmt: skip
         assert f"| {name} | {mm[slug].max():.0f} |" in SENTENCES

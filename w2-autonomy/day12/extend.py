@@ -27,6 +27,7 @@ row = Row(
     ),
     at_edge=lambda tree, sample, step, world: definite(tree, sample, step, world),
     slips=(ASKS,),
+    each_case=100,
 )
 
 

@@ -87,7 +87,7 @@ OPTIONS = [
         ("shifted-p", "your code uses p = (k + z^2 / 2) / (n + z^2), which is the "
                       "centre of the interval. Use p = k / n instead",
          lambda k, n: (k + Z**2 / 2) / (n + Z**2)),
-        ("failures", "your code uses the proportion of failures as p. Use p = k / n "
+        ("failures", "your code uses the fraction of failures as p. Use p = k / n "
                      "instead",
          lambda k, n: (n - k) / n),
     ]),
@@ -180,30 +180,32 @@ OPTIONS = [
                        "half-width itself", lambda a, n: a * a),
     ]),
     *_each("out", [
-        ("percent", "your code returns per cent. Return proportions instead",
+        ("percent", "your code returns per cent. Return fractions instead",
          lambda ends, n: 100 * ends),
-        ("counts", "your code returns counts. Return proportions instead",
+        ("counts", "your code returns counts. Return fractions instead",
          lambda ends, n: n * ends),
-        ("cut", "your code clamps the bounds to [0.01, 0.99]. Omit this clamp",
+        ("cut", "your code clamps the endpoints to [0.01, 0.99]. Omit this clamp",
          lambda ends, n: np.clip(ends, 0.01, 0.99)),
-        ("cut", "your code clamps the bounds to [0, 1]. Omit this clamp, because the "
-                "bounds of a Wilson interval never lie outside this range",
+        ("cut", "your code clamps the endpoints to [0, 1]. Omit this clamp, because "
+                "the endpoints of a Wilson interval never lie outside this range",
          lambda ends, n: np.clip(ends, 0, 1)),
-        ("high-first", "your code returns the upper bound first. Return the lower "
-                       "bound first",
+        ("high-first", "your code returns the upper endpoint first. Return the lower "
+                       "endpoint first",
          lambda ends, n: ends[::-1]),
-        ("low-is-zero", "your code always returns 0 as the lower bound. Compute the "
-                        "lower bound too, because the interval has two sides",
+        ("low-is-zero", "your code always returns 0 as the lower endpoint. Compute "
+                        "the lower endpoint too, because the interval has two sides",
          lambda ends, n: np.array([0.0, ends[1]])),
-        ("high-is-one", "your code always returns 1 as the upper bound. Compute the "
-                        "upper bound too, because the interval has two sides",
+        ("high-is-one", "your code always returns 1 as the upper endpoint. Compute "
+                        "the upper endpoint too, because the interval has two sides",
          lambda ends, n: np.array([ends[0], 1.0])),
-        ("low-alone", "your code returns the lower bound twice. Return both bounds",
+        ("low-alone", "your code returns the lower endpoint twice. Return both "
+                      "endpoints",
          lambda ends, n: ends[[0, 0]]),
-        ("high-alone", "your code returns the upper bound twice. Return both bounds",
+        ("high-alone", "your code returns the upper endpoint twice. Return both "
+                       "endpoints",
          lambda ends, n: ends[[1, 1]]),
         ("middle-and-width", "your code returns the centre and the half-width. Return "
-                             "the two bounds instead", lambda ends, n:
+                             "the two endpoints instead", lambda ends, n:
          np.array([ends.mean(), np.diff(ends)[0] / 2])),
     ]),
     *_each("none", [

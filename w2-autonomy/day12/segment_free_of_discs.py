@@ -3,12 +3,13 @@
 import numpy as np
 
 from labkit.judge import Mask, Row
+from labkit.judge.answers import once
 from robo47.planning import segment_free_of_discs
 
 from .ways import DISC, NONE, clear, discs, usual
 
 # An edge that touches, but for rounding, is nobody's question.
-row = Row(Mask(), at_edge=clear)
+row = Row(Mask(), at_edge=clear, each_case=150)
 
 
 def typed(rng, kind):
@@ -39,6 +40,7 @@ def typed(rng, kind):
             return a, b, some
 
 
+@once  # each of the cases asks it
 def seen(a, b, discs):
     """Return what an edge is, by the first of these that it is."""
     if not len(discs):
@@ -64,7 +66,7 @@ def edges(*kinds):
 
 row.cases({
     "edges that start or end in a disc": edges("end"),
-    "edges that cross a disc between their ends": edges("between"),
+    "edges that cross a disc between their endpoints": edges("between"),
     "edges that touch a disc": edges("touches"),
     "free edges near a disc": edges("near"),
     "free edges far from every disc": edges("far"),
@@ -240,11 +242,12 @@ def _(a, b, discs):
       Compute the point of the edge nearest to each centre exactly
     points-only 6: your code misses discs that cover only a small part of the edge.
       Compute the point of the edge nearest to each centre exactly
-    inside-is-free: your code tests only whether the edge crosses the circle. Report an
-      edge inside a disc as blocked too, because the whole disc is an obstacle
-    inside-is-free 2: your code tests only whether the edge crosses the circle. Report
-      an edge or a point inside a disc as blocked too, because the whole disc is an
+    inside-is-free: your code tests only whether the edge crosses the boundary of a
+      disc. Report an edge inside a disc as blocked too, because the whole disc is an
       obstacle
+    inside-is-free 2: your code tests only whether the edge crosses the boundary of a
+      disc. Report an edge or a point inside a disc as blocked too, because the whole
+      disc is an obstacle
     inner-only: your code skips a disc if the nearest point of the infinite line lies
       beyond an endpoint of the edge. Use the distance from the centre to this endpoint,
       because the endpoint can lie in the disc
@@ -293,9 +296,9 @@ def _(a, b, discs):
     distance-to-the-start: for a disc beyond `b`, your code uses the distance to `a`.
       Use the distance to `b` instead, because `b` is the nearest point of the edge
     first-crossing-only: your code tests only the first intersection of the line with
-      the circle. Test the second intersection too, because an edge that starts in the
-      disc can contain only the second
-    some-crossing: your code tests whether the infinite line meets the circle. Use the
+      the boundary of the disc. Test the second intersection too, because an edge that
+      starts in the disc can contain only the second
+    some-crossing: your code tests whether the infinite line meets the disc. Use the
       nearest point of the edge instead, because both intersections can lie beyond an
       endpoint
     boxes-overlap: your code tests whether the bounding boxes of the edge and the disc

@@ -17,6 +17,7 @@ row = Row(
     at_edge=lambda *call: False,
     unnamed=of_a_cut,
     slips=(ASKS,),
+    each_case=100,
 )
 
 

@@ -8,7 +8,7 @@ from robo47.planning import wilson_interval
 from .intervals import of_shares
 
 row = Row(
-    Vector((2,), names=("the lower end", "the upper end")),
+    Vector((2,), names=("the lower endpoint", "the upper endpoint")),
     near=1e-7,  # 1.959964 for 1.96 is 4e-6 away
     at_edge=lambda successes, n: 0 <= successes <= n,
     unnamed=of_shares,
@@ -98,21 +98,22 @@ def _(successes, n):
       instead
     n-for-n2: your code adds z^2 / (4 n) under the square root. Add z^2 / (4 n^2)
       instead
-    successes-for-p: your code uses k instead of the proportion k / n in the centre.
+    successes-for-p: your code uses k instead of the success rate k / n in the centre.
       Divide k by n
     failures: your code returns the interval for the n - k failures. Return the interval
       for the successes instead
-    high-first: your code returns the upper bound first. Return the lower bound first
-    high-first 2: for n > 0, your code returns the upper bound first. Return the lower
-      bound first
+    high-first: your code returns the upper endpoint first. Return the lower
+      endpoint first
+    high-first 2: for n > 0, your code returns the upper endpoint first. Return the
+      lower endpoint first
     middle-and-width: your code returns the centre and the half-width. Return the two
-      bounds instead
-    rule-of-three: for k = 0, your code returns 3 / n as the upper bound (the rule of
-      three). Use the Wilson interval for k = 0 too
+      endpoints instead
+    rule-of-three: for k = 0, your code returns 3 / n as the upper endpoint (the rule
+      of three). Use the Wilson interval for k = 0 too
     rule-of-three 2: for k = 0 and k = n, your code uses the rule of three, with the
-      bounds `3 / n` and `1 - 3 / n`. Use the Wilson interval for these cases too
+      endpoints `3 / n` and `1 - 3 / n`. Use the Wilson interval for these cases too
     rule-of-three 3: for k = 0 and k = n, your code uses the rule of three, with the
-      bounds `3 / n` and `1 - 3 / n`. Use the Wilson interval for these cases too
+      endpoints `3 / n` and `1 - 3 / n`. Use the Wilson interval for these cases too
     plus-four: your code returns the Agresti-Coull interval: the Wald interval with p =
       (k + 2) / (n + 4) and n + 4 trials. Use the Wilson interval instead
     plus-four 2: your code returns the Agresti-Coull interval: the Wald interval with p
@@ -203,8 +204,8 @@ def _(successes, n):
 
 @row.wrong
 def none_divides(successes, n):
-    """for n = 0, your code divides by 0. Return (0, 1), because no proportion can be
-    excluded"""
+    """for n = 0, your code divides by 0. Return (0, 1), because no success rate
+    can be excluded"""
     with np.errstate(all="ignore"):
         k, n = np.float64(successes), np.float64(n)
         p, z = k / n, 1.96
@@ -214,8 +215,8 @@ def none_divides(successes, n):
 
 @row.wrong("none-divides")
 def _(successes, n):
-    """for n = 0, your code returns (0, 0). Return (0, 1), because no proportion can be
-    excluded"""
+    """for n = 0, your code returns (0, 0). Return (0, 1), because no success rate
+    can be excluded"""
     return np.zeros(2) if n == 0 else wilson_interval(successes, n)
 
 

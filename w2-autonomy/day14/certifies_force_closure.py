@@ -51,6 +51,8 @@ def _(rng):
     nearly = line(0.5)
     nearly[1] = 1e-12 * np.tile([1.0, -1], 4)
     yield nearly, np.ones(8)
+    beside_it = AROUND[2:] + [0.01, 0.0, 0.02]  # forces and moments have rank 3 each
+    yield pushes(beside_it, inwards(AROUND[2:]), 0.5, K), np.ones(8)
     yield line(0.0), np.ones(8)
     yield top, np.ones(12)
     yield top, np.repeat([1.0, 1, 2], K)

@@ -52,7 +52,7 @@ def needed(within=0.05):
     return LAB.needed(within)
 
 
-@numbers.add("lower end of the interval, 60 of 60 held", "{:.3f}",
+@numbers.add("lower endpoint of the interval, 60 of 60 held", "{:.3f}",
     TESTED=between(1.02, 1.04, "n / (n + 1.96²): the distance to 1 halves"))
 def low_end():
     return LAB.success_rate(np.ones(LAB.TESTED, bool))[1]

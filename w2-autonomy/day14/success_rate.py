@@ -4,7 +4,7 @@ import numpy as np
 
 from labkit.judge import Row, Vector
 
-row = Row(Vector((3,), names=("the rate", "the lower end", "the upper end")))
+row = Row(Vector((3,), names=("the rate", "the lower endpoint", "the upper endpoint")))
 
 
 @row.inputs

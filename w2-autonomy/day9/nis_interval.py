@@ -6,7 +6,7 @@ import numpy as np
 
 from labkit.judge import Row, Vector
 
-row = Row(Vector((2,), names=("the lower end", "the upper end")))
+row = Row(Vector((2,), names=("the lower endpoint", "the upper endpoint")))
 
 
 @row.inputs

@@ -88,7 +88,7 @@ def capsule_distance(
 ) -> float:  # fmt: skip
     """Return the signed distance of two capsules in metres, negative if they overlap.
 
-    a0, a1 and b0, b1 are the ends of the axes, (3,), in metres; ra and rb are the radii
+    a0, a1 and b0, b1 are the endpoints of the axes, (3,), in m; ra and rb are the radii
     in metres. The signed distance is the distance of the axes minus both radii.
     capsule_distance((-1, 0, 0), (1, 0, 0), 0.25, (0, -1, 1), (0, 1, 1), 0.5) -> 0.25
     """
@@ -125,7 +125,7 @@ def capsule_box_distance(
 ) -> float:
     """Return the signed distance of a capsule and a box in any pose, metres.
 
-    a0 and a1 (3,) are the ends of the axis in the world frame, r is the radius,
+    a0 and a1 (3,) are the axis endpoints in the world frame, r is the radius,
     T_world_box (4, 4) the pose of the box and half_extents (3,) half of its sides, all
     in metres. The result is the minimum of `box_sdf` along the axis, minus r. That
     function is convex along the axis, so golden-section search finds its minimum.
@@ -136,17 +136,17 @@ def capsule_box_distance(
     R = T_world_box[:3, :3]  # rotation of the box
     start = R.T @ (a0 - T_world_box[:3, 3])  # start point in the box frame
     way = R.T @ (a1 - a0)  # direction of the axis in the box frame
-    low = 0.0  # lower end of the interval that contains the minimum
-    high = 1.0  # upper end of the interval
+    low = 0.0  # lower endpoint of the interval that contains the minimum
+    high = 1.0  # upper endpoint of the interval
     for _ in range(60):  # the iterations of the golden-section search
         left = high - 0.618 * (high - low)  # the sample at 0.382 of the interval
         right = low + 0.618 * (high - low)  # the sample at 0.618 of the interval
         if box_sdf(start + left * way, half_extents) < box_sdf(
             start + right * way, half_extents
         ):
-            high = right  # the new upper end
+            high = right  # the new upper endpoint
         else:
-            low = left  # the new lower end
+            low = left  # the new lower endpoint
     return (  # the minimum along the axis, minus the radius
         min(box_sdf(start + s * way, half_extents) for s in (low, high)) - r
     )
@@ -176,7 +176,7 @@ def distance_gradient(
 def capsule_aabb(a0: np.ndarray, a1: np.ndarray, r: float) -> np.ndarray:
     """Return a capsule's axis-aligned bounding box (AABB), (2, 3): lower, upper corner.
 
-    a0 and a1 (3,) are the ends of the axis, r is the radius, all in metres. The box is
+    a0 and a1 (3,) are the axis endpoints, r is the radius, all in metres. The box is
     the smallest one with edges along the world axes that contains the capsule.
     capsule_aabb((0, 1, 0), (1, 0, 0), 0.5) -> ((-0.5, -0.5, -0.5), (1.5, 1.5, 0.5))
     """
@@ -414,7 +414,7 @@ def pen_from(edge: day11_mujoco.Edge, s: float | np.ndarray) -> np.ndarray:
 
 
 def missed_by_points(edges: list[day11_mujoco.Edge], k: int) -> int:
-    """Return how many motions are reported free by k inner samples and both ends."""
+    """Return how many motions k inner samples and both endpoints report as free."""
     s = np.linspace(0, 1, k + 2)
     return sum(bool(pen_from(edge, s).min() > 0) for edge in edges)
 

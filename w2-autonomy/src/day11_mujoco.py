@@ -40,7 +40,7 @@ class Edge(NamedTuple):
 
     q: Array  # rad, (7,)
     dq: Array  # rad, (7,)
-    wire: tuple[Array, Array, float]  # its ends and radius, m
+    wire: tuple[Array, Array, float]  # its endpoints and radius, m
 
 
 def scene() -> tuple[mujoco.MjModel, mujoco.MjData]:
@@ -75,7 +75,7 @@ def around(post: tuple) -> tuple[mujoco.MjModel, mujoco.MjData]:
 
 
 def axes(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
-    """Return the ends of the capsules' axes in MuJoCo's state, (9, 2, 3)."""
+    """Return the endpoints of the capsules' axes in MuJoCo's state, (9, 2, 3)."""
     ends = []
     for i in range(len(CAPSULES)):
         geom = data.geom(f"arm{i}")
@@ -92,7 +92,7 @@ def poses(n: int, seed: int) -> Array:
 
 
 def pen(q: Array) -> Array:
-    """Return the ends of the pen's axis at configurations (..., 7): (..., 2, 3)."""
+    """Return the endpoints of the pen's axis, (..., 2, 3), at q, (..., 7)."""
     return _PEN.ends(q)[..., 0, :, :]
 
 

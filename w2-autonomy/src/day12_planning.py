@@ -201,7 +201,7 @@ def wilson_interval(successes: int, n: int) -> np.ndarray:
     z = 1.96  # standard deviations that contain 95 % of a normal distribution
     p = successes / n  # the success rate
     around = z * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))  # the half-width
-    return (  # both ends of the interval
+    return (  # both endpoints of the interval
         p + z**2 / (2 * n) + np.array([-around, around])
     ) / (1 + z**2 / n)
     # endregion 12.6
@@ -285,9 +285,9 @@ def time_optimal_profile(
 
     most = np.zeros(len(a))  # the largest sd^2 from which the arm can still stop
     for i in range(len(a) - 2, -1, -1):
-        good, bad = 0.0, sd2_max[i]  # the ends of the bisection
+        good, bad = 0.0, sd2_max[i]  # the endpoints of the bisection
         if reached(i, bad, most[i + 1]):
-            good = bad  # the upper end, which is permitted
+            good = bad  # the upper endpoint, which is permitted
         for _ in range(60 * (good < bad)):
             half = (good + bad) / 2.0  # the middle of the interval
             good, bad = (  # the half that contains the bound

@@ -560,7 +560,7 @@ def try_policy(lab: Lab, model, data, theta: np.ndarray) -> np.ndarray:
     """Test a policy on unseen cubes; return which slippery ones it held, (n,)."""
     rough = held(tried(model, data, theta, *unseen(ROUGH)))
     low = told(f"friction {ROUGH[0]} to {ROUGH[1]}", rough)[1]
-    lab.record("unseen", low, metric="low_end", label="lower end of the interval",
+    lab.record("unseen", low, metric="low_end", label="lower endpoint of the interval",
                seed=CUBES_SEED)  # fmt: skip
     cubes, noise = unseen(SLIPPERY)
     slippery = held(tried(model, data, theta, cubes, noise))
@@ -639,7 +639,7 @@ def main() -> int:
         same_as(lab, policy, given, paired_difference=paired_difference)
         apart, sigma = paired_difference(feels, slippery)
         lab.record("slippery_gain", np.round(apart - 1.96 * sigma, 1), metric="low_end",
-                   label="gain of the reflex, lower end", seed=SEED)  # fmt: skip
+                   label="gain of the reflex, lower endpoint", seed=SEED)  # fmt: skip
     return lab.finish()
 
 

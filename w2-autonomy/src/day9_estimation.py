@@ -173,7 +173,7 @@ def nis_interval(n: int, m: int) -> np.ndarray:
     # region 9.6
     c = 2.0 / (9.0 * n * m)  # the variance of the cube root of chi-square / (n m)
     off = 1.96 * np.sqrt(c)  # the half-width of the interval
-    return m * np.array([1.0 - c - off, 1.0 - c + off]) ** 3  # the ends of the interval
+    return m * np.array([1.0 - c - off, 1.0 - c + off]) ** 3  # the interval's endpoints
     # endregion 9.6
 
 

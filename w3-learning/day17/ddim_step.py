@@ -35,8 +35,8 @@ def _(x, eps, abar, prev):
     prev-not-rooted: your code multiplies the clean samples by prev and eps by 1 - prev.
       Use the square roots of these factors instead, because prev is a fraction of the
       power, and the power is proportional to the square of the amplitude
-    clipped-at-1: your code clips the clean samples to the interval from -1 to 1, as for
-      images. Omit this clipping, because the data may lie outside this interval
+    clipped-at-1: your code clamps the clean samples to the interval from -1 to 1, as
+      for images. Omit this clamp, because the data may lie outside this interval
     ddpm-mean: your function returns the mean of a random step (task 17.5). For a
       deterministic step, multiply the clean samples by sqrt(prev) and add sqrt(1 -
       prev) * eps

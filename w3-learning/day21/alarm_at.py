@@ -43,7 +43,7 @@ row.cases(
 
 
 def at(above, ticks):
-    """Return the first tick at which so many ticks in a row were above, or -1."""
+    """Return the first tick at which so many consecutive ticks were above, or -1."""
     count = 0
     for tick, high in enumerate(above):
         count = count + 1 if high else 0

@@ -93,14 +93,14 @@ def unpaired(a, b):
 @row.wrongs(hidden=dict.fromkeys(("mask-sorted", "sorted"), SORTED))
 def _(success):
     """uncorrected: your code compares each p-value with 0.05. Use Holm's limits
-      instead, because several comparisons make a false difference more probable
+      instead, because several comparisons make a false positive more probable
     bonferroni: your code compares each p-value with 0.05 / (k - 1). Use this limit only
       for the smallest p-value. Use 0.05 / (k - 2) for the next p-value, and so on
     bonferroni 2: your code compares each p-value with 0.05 / k. Use the limit 0.05 / (k
       - 1) for the smallest p-value, 0.05 / (k - 2) for the next p-value, and so on
     false-discovery: your code uses the method of Benjamini and Hochberg, which limits
-      the expected fraction of false differences. Use Holm's method instead, which
-      limits the probability of any false difference
+      the expected fraction of false positives among the reported differences. Use
+      Holm's method instead, which limits the probability of any false positive
     smallest-only: your code compares only the smallest p-value with its limit. Continue
       with the next p-value, and stop at the first p-value that is above its limit
     by-place: your code assigns Holm's limits in the order of the rows. Sort the

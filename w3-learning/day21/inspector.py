@@ -33,7 +33,7 @@ class Pushed(NamedTuple):
     """An episode, the plan of each tick, and what the guard says of it."""
 
     seen: Array  # m, (T + 1, 4)
-    plans: Array  # m, paths of the present plan, (T, K, 2)
+    plans: Array  # m, paths of the current plan, (T, K, 2)
     scores: Array  # (T + 1,)
     limit: float
     alarm: int
@@ -60,7 +60,7 @@ class Driver(LAB.Late):
         self.plans: list[Array] = []
 
     def entry(self, tick: int) -> Array:
-        """Return the action of the present plan for a tick, (1, 2)."""
+        """Return the action of the current plan for a tick, (1, 2)."""
         action = self.fns.plan_entry(self.plan, self.drawn, tick)
         limited = np.clip(np.asarray(action, float), -push.FASTEST, push.FASTEST)
         return limited.reshape(1, 2)
@@ -98,7 +98,7 @@ class Push(ui.Played):
     )
     home = ui.scene.curve(push.HOME * RING, "green", legend="home")
     best = ui.scene.lines(ui.NOWHERE, "white", legend="the pusher by the library")
-    beads = ui.yours.lines(ui.NOWHERE, "purple", legend="the present plan")
+    beads = ui.yours.lines(ui.NOWHERE, "purple", legend="the current plan")
     puck = ui.yours.disc(push.PUCK, UP, "orange", 0.6, legend="puck")
     pusher = ui.yours.disc(push.PUSHER, 3 * UP, "grey", legend="pusher")
 

@@ -98,7 +98,7 @@ def _(p, v, low, high, dt):
     no-position: your code omits the position from the bounds on the velocity. Subtract
       the position from each wall, because the bounds depend on the distances to the
       walls
-    no-position 2: your code omits the position from the bounds of the velocity.
+    no-position 2: your code omits the position from the bounds on the velocity.
       Subtract the position from each wall, because the bounds depend on the distances
       to the walls
     fixed-duration: your code uses a fixed time step of 0.1 s. Use the argument `dt`

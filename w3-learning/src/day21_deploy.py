@@ -76,16 +76,16 @@ def keep_inside(
 
 
 def plan_entry(plan: np.ndarray, drawn: int, now: int) -> np.ndarray:
-    """Return the action of a plan for the present tick, (m,).
+    """Return the action of a plan for the current tick, (m,).
 
     plan (K, m) was drawn from what was observed at the tick drawn. Its rows are the
-    actions for the ticks drawn, drawn + 1, and so on. now is the present tick, drawn or
+    actions for the ticks drawn, drawn + 1, and so on. now is the current tick, drawn or
     later. If the plan has run out, return its last row.
     plan_entry([[1], [2], [3], [4], [5]], 12, 15) -> [4]
     """
     # region 21.3
     row = min(now - drawn, len(plan) - 1)  # index; the last row if the plan has run out
-    return plan[row]  # action of the present tick
+    return plan[row]  # action of the current tick
     # endregion 21.3
 
 
@@ -131,11 +131,11 @@ def conformal_limit(scores: np.ndarray, share: float) -> float:
 
 
 def alarm_at(score: np.ndarray, limit: float, ticks: int) -> int:
-    """Return the first tick at which the score was above limit for ticks in a row.
+    """Return the first tick at which `ticks` consecutive scores have been above limit.
 
     score (T,) has one entry for each tick, from tick 0. The tick that is returned is
-    the last of these ticks in a row. A NaN is treated as above the limit. If there is
-    no such tick, return -1. alarm_at([0.1, 0.9, 0.2, 0.9, 0.9, 0.9], 0.5, 3) -> 5
+    the last of these ticks. A NaN is treated as above the limit. If there is no such
+    tick, return -1. alarm_at([0.1, 0.9, 0.2, 0.9, 0.9, 0.9], 0.5, 3) -> 5
     """
     # region 21.6
     above = 0  # number of consecutive ticks above the limit
@@ -331,7 +331,7 @@ class Late:
         self.now = 0
 
     def entry(self, tick: int) -> np.ndarray:
-        """Return the actions of the present plans for a tick, (n, 2)."""
+        """Return the actions of the current plans for a tick, (n, 2)."""
         actions = plan_entry(self.plan, self.drawn, tick).reshape(self.n, 2)
         return np.clip(actions, -day15_mujoco.FASTEST, day15_mujoco.FASTEST)
 
