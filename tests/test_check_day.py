@@ -103,7 +103,7 @@ class TestCheck:
         assert "Next: task 1.1, make_T. Stuck? make hint TASK=1.1" in done.stdout
 
     def test_of_half_a_task_says_which_half_is_to_do(self, run_in, work, day):
-        says = "joint_T: Not written yet: "
+        says = "joint_T: Not written yet.\n"
         assert says not in run_in(CHECK, "--task", "1.5").stdout
         solve(day, work, "make_T", "quat_to_R", "link_T")
         assert says in run_in(CHECK, "--task", "1.5").stdout

@@ -1,11 +1,13 @@
 """The call that failed: what can be typed, theirs, and the right answer."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from judged import answered, replies_of, right, round_of
 
 from labkit.base.exchange import Question, Reply
-from labkit.check.report import matrix_of
+from labkit.check.report import matrix_of, of_arguments
 from labkit.judge import Count, Index, Matrix, Scalar, Vector, Word
 from labkit.judge.answers import InTurn
 from labkit.judge.ask import SEED, Ask, Edges, HeldOut, right_answers
@@ -266,3 +268,41 @@ def test_the_shortest_of_the_calls_that_are_clearly_wrong_is_shown():
     asked = asked_with(lambda x: np.array([[x, 0.0]]), shown)
     said = failing_call(asked).call
     assert said == "f(2.5)[1] returned 0; expected 2.5.", "0.2 is off by less than 0.27"
+
+
+def test_the_report_says_how_to_see_arguments_that_a_call_only_names():
+    task = SimpleNamespace(id="1.2")
+    inputs = lambda rng: [(n * np.eye(2),) for n in (1.0, 2.0, 3.0)]  # noqa: E731
+    trace = Ask(inputs, Scalar(), truth=InTurn(np.trace))
+    named = judge(asked_with(lambda x: np.max(x), trace))
+    typed = judge(asked_with(lambda x: np.sin(x) + 0.25 * (x == 1.0)))
+    says = [of_arguments(SimpleNamespace(task=task, verdict=v)) for v in (named, typed)]
+    assert says == ["All arguments: make check TASK=1.2 ARGS=--explain", ""]
+
+
+def _sizes_of(n, m):
+    return np.ones(int(n)), np.ones(int(m))
+
+
+@pytest.mark.parametrize(
+    "student",
+    [
+        lambda n, m: (np.ones(2), np.ones(int(n))),  # the two have changed places
+        lambda n, m: (np.ones((1, 2)) if n == 3 else np.ones(2), np.ones((1, 2))),
+    ],
+    ids=["the sizes", "the axes"],
+)
+def test_the_call_is_of_the_result_that_the_message_names(student):
+    kinds = Vector((None,)), Vector((None,))
+    ask = Ask(
+        lambda rng: [(2.0, 1.0), (3.0, 3.0), (3.0, 1.0)],
+        kinds,
+        truth=InTurn(_sizes_of),
+    )
+    asked = round_of(ask)
+    for one in asked.exchanges:
+        value = student(*one.question.args)
+        one.reply = Reply(value=value, again=value)
+    verdict = judge(asked)
+    place = {"Your first": ")[0]", "Your secon": ")[1]"}[verdict.message[:10]]
+    assert place in verdict.call

@@ -11,8 +11,19 @@ from labkit.lesson.starter import find_regions
 
 # A gloss stands in "... in this step: the velocity of link i": it is no clause.
 CLAUSE = re.compile(r"^(and|or|but|so|because|where|when|of|in|as|for) ", re.IGNORECASE)
+# It also stands alone in "Your code for ... omits a factor": it names no other line, no
+# state of a loop, and nothing by what it is not.
+POINTS = re.compile(
+    r"\b(these|this|those|such|it|them|they|so far|(is|are) (not|left))\b"
+    r"|^(from|without) "
+)
 # To return a variable needs none: the line that made it has one.
 STEPS = (ast.Assign, ast.AugAssign, ast.Return)
+
+
+def points(gloss):
+    """Return whether what a message says of a gloss points at another line."""
+    return bool(POINTS.search(re.split(r"[:;] ", gloss)[0]))
 
 
 def glossed(day):
@@ -55,6 +66,23 @@ def test_a_lab_with_glosses_has_them_all(day):
     ]
     assert bare == []
     assert [gloss for gloss in found.values() if CLAUSE.match(gloss)] == []
+    assert [gloss for gloss in found.values() if points(gloss)] == []
+
+
+@pytest.mark.parametrize(
+    ("gloss", "is_one"),
+    [
+        ("the sum so far", True),
+        ("f at these times", True),
+        ("weights that are not normalised", True),
+        ("from a wrench to an acceleration", True),
+        ("the accumulated sum", False),
+        ("unnormalised weights", False),
+        ("the exponents; these are never positive", False),
+    ],
+)
+def test_a_gloss_that_points_at_another_line_does_not_stand_alone(gloss, is_one):
+    assert points(gloss) == is_one
 
 
 def test_a_gloss_on_the_first_line_belongs_to_the_whole_statement():

@@ -367,6 +367,7 @@ def test_a_change_that_no_line_of_the_file_has_is_told_of_the_correct_formula():
         "Your code gives the same result as a solution whose code for the centre of "
         "mass in the world frame opens or closes a bracket in the wrong place."
     )
+    assert "gives the same output" not in says  # the first sentence says it
 
 
 def test_a_product_in_the_wrong_order_may_lack_a_transpose():
@@ -379,16 +380,63 @@ def test_a_product_in_the_wrong_order_may_lack_a_transpose():
 
 
 @pytest.mark.parametrize(
-    ("new", "size"), [("2.0 * x", "twice"), ("0.5 * x", "half of")]
+    ("new", "size", "says"),
+    [
+        (
+            "2.0 * x",
+            "twice",
+            "has a factor of two too many, or omits a division by two",
+        ),
+        ("0.5 * x", "half of", "omits a factor of two, or divides by two"),
+    ],
 )
-def test_a_factor_of_two_says_which_way_it_goes(new, size):
-    node = ast.parse("x", mode="eval").body
-    mutant = SimpleNamespace(
-        kind="factor",
-        edits=[(SimpleNamespace(node=node), ast.parse(new, mode="eval").body)],
-    )
-    assert what(mutant, given={"x": "theta"}) == f"uses {size} `theta` in one place"
-    assert what(mutant) == "omits a factor of two, or has one too many"
+def test_a_factor_of_two_says_which_way_it_goes(new, size, says):
+    function = ast.parse("def f(x):\n    return x / x").body[0]
+    division = function.body[0].value
+
+    def mutant(node):
+        edits = [(SimpleNamespace(node=node), ast.parse(new, mode="eval").body)]
+        body = SimpleNamespace(function=function)
+        return SimpleNamespace(kind="factor", edits=edits, body=body)
+
+    above, below = mutant(division.left), mutant(division.right)
+    assert what(above, given={"x": "theta"}) == f"uses {size} `theta` in one place"
+    assert what(above) == says
+    assert what(below) == "omits a factor of two, or has one too many"
+
+
+MLP_GRADIENT = """
+def mlp_gradient(x, target, W1, b1, W2, b2, W3, b3):
+    first = np.tanh(x @ W1 + b1)
+    second = np.tanh(first @ W2 + b2)
+    d3 = HERE
+    d2 = (d3 @ W3.T) * (1 - second**2)
+    d1 = (d2 @ W2.T) * (1 - first**2)
+    grads = x.T @ d1, d1.sum(axis=0), first.T @ d2, d2.sum(axis=0)
+    return (*grads, second.T @ d3, d3.sum(axis=0))
+"""
+MSE = """
+def mse(pred, target):
+    return 0.0, 2 * (pred - target) / target.size
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        (
+            "2 * (target - (second @ W3 + b3)) / target.size",
+            "Your code for the gradient with respect to the output reverses one sign.",
+        ),
+        ("mse(target, second @ W3 + b3)[1]", "puts two arguments in the wrong order"),
+        ("(second @ W3 + b3 - target) / target.size", "omits a factor of two, or"),
+    ],
+)
+def test_arguments_are_in_the_wrong_order_only_where_a_function_is_called(line, says):
+    text = MLP_GRADIENT.replace("HERE", line)
+    exec(MSE + text, space := {"np": np})
+    verdict = judged_text(15, "15.6", text, space["mlp_gradient"])
+    assert says in verdict.message
 
 
 POLICY_COST = """

@@ -19,6 +19,7 @@ from labkit.judge import (
     Vector,
 )
 from labkit.judge.answers import is_or_are, of_result
+from labkit.judge.kinds import Kind
 from labkit.judge.matrix_kinds import part_off
 from labkit.judge.mistake import Finding, both_told
 from labkit.judge.results import as_sent, expected, flat_kinds, read
@@ -30,6 +31,20 @@ from robo47.se3 import Rx
 def test_what_a_wrong_shape_comes_from_is_a_sentence():
     found = Jacobian((6, 7)).read([np.zeros((7, 6))])
     assert found.message.endswith("a 6x7 matrix. Rows and columns are swapped.")
+
+
+@pytest.mark.parametrize(
+    ("shape", "words"),
+    [
+        ((2, 3), "an array of shape (2, 3)"),
+        ((None,), "an array with 1 axis"),
+        ((None, None, None), "an array with 3 axes"),
+        ((None, 2), "an array of shape (n, 2) with any n"),
+        ((None, None, 3), "an array of shape (n, m, 3) with any n and m"),
+    ],
+)
+def test_a_size_that_the_question_decides_is_a_letter(shape, words):
+    assert Kind(shape).expected == words
 
 
 def test_results_that_are_alike_are_described_once():

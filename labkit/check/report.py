@@ -1,5 +1,6 @@
 """The text of a check: a line per task and deliverable, and the next step."""
 
+import itertools
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -212,6 +213,8 @@ def _below(report: Report, result: TaskResult, explain: bool) -> list[str]:
         lines += _wrapped(says, _INDENT)
         if verdict.call and verdict.message in says:
             lines += _wrapped(verdict.call, _INDENT)
+            if not explain:
+                lines += _wrapped(of_arguments(result), _INDENT)
             if verdict.compared and (explain or len(report.tasks) == 1):
                 lines += [f"{'':{_INDENT}}{ln}" for ln in matrix_of(verdict.compared)]
     if explain:
@@ -219,6 +222,18 @@ def _below(report: Report, result: TaskResult, explain: bool) -> list[str]:
             lines += _wrapped(f"- {line}", _INDENT, hanging=2)
         lines += [f"{'':{_INDENT}}| {ln}" for ln in result.printed.splitlines()]
     return lines
+
+
+def of_arguments(result: TaskResult) -> str:
+    """Return how to see a call's arguments, if some stand there by their names."""
+    lines = iter(result.verdict.measured)
+    if not any(line.startswith("call: ") for line in lines):
+        return ""
+    results = ("returned: ", "expected: ")
+    given = itertools.takewhile(lambda line: not line.startswith(results), lines)
+    if not any(" = " in line for line in given):
+        return ""
+    return f"All arguments: make check TASK={result.task.id} ARGS=--explain"
 
 
 def matrix_of(compared: Compared) -> list[str]:

@@ -101,28 +101,39 @@ def _broken(exchanges: Sequence[Exchange], names: Sequence[str]) -> Failing | No
 def _misfit(
     asked: Asked, exchanges: Sequence[Exchange], names: Sequence[str]
 ) -> Failing | None:
-    """Return the first call whose answer is not of the kind that is expected."""
+    """Return the first call whose answer is not of the kind that is expected.
+
+    Like the message, it is about the first result that does not fit in some call.
+    """
+    misfits = []
     for one in exchanges:
         found = read([one], asked.ask)
         if isinstance(found, Finding) and found.slug in MISFITS and one.reply:
-            place, what = _misfitting(asked.ask, one.reply.value)
-            call = typed(one.question, names, LONG)
-            says = f"{call}{place} returned {what}."
-            whole = _given(one.question, names)
-            return Failing(says, whole, None, Example(one.question))
-    return None
+            misfits.append((one, *_misfitting(asked.ask, one.reply.value)))
+    if not misfits:
+        return None
+    one, _, place, what = min(misfits, key=lambda misfit: misfit[1])
+    call = typed(one.question, names, LONG)
+    whole = _given(one.question, names)
+    return Failing(
+        f"{call}{place} returned {what}.", whole, None, Example(one.question)
+    )
 
 
-def _misfitting(ask: Ask, value: Any) -> tuple[str, str]:
-    """Return the place of the first result that does not fit, and what it is."""
+def _misfitting(ask: Ask, value: Any) -> tuple[int, str, str]:
+    """Return which result does not fit first, its place, and what it is.
+
+    An answer without its results is no result: -1.
+    """
     if unsplit := not_split(ask.kind, value):
-        return unsplit
+        return -1, *unsplit
     parts = split(ask.kind, value)
     assert not isinstance(parts, Finding)  # it was read before
-    for place, kind, part in zip(places(ask.kind), ask.kinds, parts, strict=True):
+    rows = zip(places(ask.kind), ask.kinds, parts, strict=True)
+    for j, (place, kind, part) in enumerate(rows):
         if isinstance(found := kind.read([part]), Finding):
-            return place, _briefly(part) if found.slug in SHOWN else _shape(part)
-    return "", _shape(value)
+            return j, place, _briefly(part) if found.slug in SHOWN else _shape(part)
+    return len(ask.kinds), "", _shape(value)
 
 
 def _briefly(value: Any) -> str:
@@ -151,7 +162,7 @@ def _wrong(
     assert one.reply
     assert not isinstance(given, Finding)
     right = right_answers(ask, [one])
-    part = _wrong_part(ask, given, right)
+    part = _wrong_part(ask, exchanges, given, right)
     place, entries = _entry(ask.kinds[part], given[part][0], right[part][0])
     says = f"{typed(one.question, names, LONG)}{places(ask.kind)[part]}{place}"
     whole = [*_given(one.question, names)]
@@ -187,8 +198,9 @@ def _chosen(
     limit = 1.0 if relative else ask.tolerance
     if held and held.mistaken:  # its answers may be nearly right
         limit = 0.0
-    off = {i for i, _, got, its in replies_read.sizes(ask, exchanges) if got != its}
-    gap[list(off)] = np.inf  # zeros that fill an answer up may be right
+    off = {i for i, *_ in replies_read.wrong_sizes(ask, exchanges)}
+    if off:  # which the message is about; zeros that fill an answer up may be right
+        gap = np.where([i in off for i in range(len(gap))], np.inf, 0.0)
     if not (gap > limit).any():
         return None
     # What is said is of the first result that is wrong in some call: one of these.
@@ -199,11 +211,14 @@ def _chosen(
     return _easiest(exchanges, gap, limit)
 
 
-def _wrong_part(ask: Ask, given: Parts, right: Parts) -> int:
-    """Return the first result of a wrong shape, else the one that is wrong."""
-    for k, (mine, its) in enumerate(zip(given, right, strict=True)):
-        if mine.shape != its.shape:
-            return k
+def _wrong_part(
+    ask: Ask, exchanges: Sequence[Exchange], given: Parts, right: Parts
+) -> int:
+    """Return the result of a wrong shape that the message names, else the wrong one."""
+    off = [k for k in range(len(given)) if given[k].shape != right[k].shape]
+    named = [k for _, k, *_ in replies_read.wrong_sizes(ask, exchanges)]
+    for k in [k for k in named if k in off] + off:
+        return k
     return worst_part(ask.kinds, given, right, ask.tolerance)
 
 

@@ -41,6 +41,19 @@ OTHERS = {"U": "strings", "S": "bytes", "O": "objects", "c": "complex numbers"}
 OF_UNITS = (1e3, 1e-3)  # factors that a unit with another prefix has
 
 
+def array_of(shape: tuple[int | None, ...]) -> str:
+    """Return an array in words; None is any size: "an array with 3 axes"."""
+    if set(shape) == {None}:
+        return "an array with " + (
+            "1 axis" if len(shape) == 1 else f"{len(shape)} axes"
+        )
+    letters = iter("nmkl")
+    sizes = [next(letters) if n is None else str(n) for n in shape]
+    free = [size for size in sizes if size.isalpha()]
+    told = f"({', '.join(sizes)}{',' * (len(sizes) == 1)})"
+    return f"an array of shape {told}" + (f" with any {listed(free)}" if free else "")
+
+
 @dataclass(frozen=True)
 class Kind:
     """Any array of numbers; the base of the others."""
@@ -86,7 +99,7 @@ class Kind:
     @property
     def expected(self) -> str:
         """What is expected, with its article: "a 4x4 matrix"."""
-        return f"an array of shape {self.shape}".replace("None", "any")
+        return array_of(self.shape)
 
     def fits(self, shape: tuple[int, ...]) -> bool:
         """Return whether an answer may have a shape."""

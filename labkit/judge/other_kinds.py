@@ -17,7 +17,7 @@ from labkit.judge.answers import (
     say_error,
     say_mm,
 )
-from labkit.judge.kinds import NEAR, RIGHT, Kind, Scalar, one_factor
+from labkit.judge.kinds import NEAR, RIGHT, Kind, Scalar, array_of, one_factor
 from labkit.judge.matrix_kinds import Matrix
 from labkit.judge.mistake import Finding, Mistake
 from robo47.checks import Array
@@ -225,7 +225,8 @@ class Mask(Kind):
 
     @property
     def expected(self) -> str:  # noqa: D102
-        where = f", in shape {self.shape}".replace("None", "any")
+        free = None in self.shape
+        where = f", in {array_of(self.shape) if free else f'shape {self.shape}'}"
         return f"True or False{where if self.shape else ''}"
 
     def _sent(self, answer: Array) -> Any:

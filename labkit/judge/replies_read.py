@@ -76,7 +76,9 @@ def no_answer(reply: Reply, function: str, task: str) -> Verdict | None:
             if named and named[1] != task:
                 says = f"Your function calls task {named[1]}, which is not written yet."
                 return Verdict("todo", "waits", says, follows=named[1])
-            says = f"Not written yet: {reply.error or 'the task is still to do.'}"
+            known = ("", f"task {task}", f"task {task}: write {function}")
+            more = "" if reply.error in known else f": {reply.error}"
+            says = f"Not written yet{more or '.'}"
             return Verdict("todo", "unwritten", says)
         case _:
             return None
@@ -205,11 +207,11 @@ def of_another_size(asked: Asked, other: bool = False) -> Finding | None:
         asked: the questions, with their replies.
         other: whether something else was said of further questions.
     """
-    off = [one for one in sizes(asked.ask, asked.main) if one[2] != one[3]]
+    off = wrong_sizes(asked.ask, asked.main)
     if not off:
         return None
     _, j, got, right = off[0]
-    calls = len({i for i, k, *_ in off if k == j})
+    calls = len(off)
     says = asked.ask.kinds[j].another_size(got, right)
     says = f"{says} {in_calls(calls, len(asked.main), other)}."
     return Finding("shape", results.of_one(asked.ask.kind, j, says))
@@ -225,6 +227,14 @@ def of_another_length(asked: Asked) -> bool:
         got == right or (len(got) > 1 and got[1:] == right[1:])
         for _, _, got, right in sizes(asked.ask, asked.main)
     )
+
+
+def wrong_sizes(
+    ask: Ask, exchanges: Sequence[Exchange]
+) -> list[tuple[int, int, tuple[int, ...], tuple[int, ...]]]:
+    """Return the wrong shapes of the first result that has one, a call each."""
+    off = [one for one in sizes(ask, exchanges) if one[2] != one[3]]
+    return [one for one in off if one[1] == off[0][1]]
 
 
 def sizes(

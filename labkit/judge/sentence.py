@@ -17,6 +17,7 @@ from labkit.judge.form import is_of_its_form
 from labkit.judge.hypothesis import evidence
 from labkit.judge.mistake import REDONE, Finding
 from labkit.judge.mutant import Mutant
+from labkit.judge.operators import called
 from labkit.judge.own_line import Line, OwnFunction
 from labkit.judge.statements import Block
 from labkit.lesson.lab_module import definition
@@ -25,6 +26,7 @@ from labkit.lesson.starter import function_lines
 MODULES = ("np", "se3", "screws", "math")
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
 ONCE = " in one place"  # of a change whose place is not quoted
+AS_A_SOLUTION = "Your code gives the same result as a solution"
 EVERYWHERE = ", in every similar line"  # of a change that is made in several places
 
 # What "your code" does, where the place of a change says no more.
@@ -60,11 +62,16 @@ SAYS = {
     "entry-some": "uses only some entries of a list or vector",
     "added": "adds a term that does not belong to the formula",
 }
+OF_FACTORS = {  # by the factor that is one too many
+    2.0: "has a factor of two too many, or omits a division by two",
+    0.5: "omits a factor of two, or divides by two",
+}
 # Kinds that are true of the numbers, whatever algorithm gives them.
 TELLING = {
     "sign", "negated", "sign-lost", "left-out", "factor", "transpose", "inverse",
     "squared", "root", "exchanged", "order", "unit", "rounded",
 }  # fmt: skip
+OF_A_VALUE = TELLING - {"left-out", "exchanged", "order"}
 CLAMPS = {  # that a value has where the reference has none
     ("maximum", "0.0"): "sets negative values to 0",
     ("minimum", "1.0"): "sets values above 1 to 1",
@@ -85,8 +92,11 @@ def of_mutants(m: Any, found: Sequence[Mutant]) -> Finding:
     It is one that stands in the student's function, else the first.
     """
     one = next((one for one in found if _in_own_words(m, one)), found[0])
+    says = _sentences(m, one)
+    if says.startswith(AS_A_SOLUTION):  # which is the evidence
+        return Finding(f"slip-{one.kind}", f"{says} {m.off()}".rstrip())
     how = m.with_error(f"{REDONE} {evidence(True)}")
-    return Finding(f"slip-{one.kind}", f"{_sentences(m, one)} {how}")
+    return Finding(f"slip-{one.kind}", f"{says} {how}")
 
 
 def _in_own_words(m: Any, mutant: Mutant) -> bool:
@@ -110,7 +120,7 @@ def _sentences(m: Any, mutant: Mutant) -> str:
     # same.
     says = told(m, mutant).removeprefix("your code ")
     which = "whose code" if says.startswith("for ") else "that"
-    return f"Your code gives the same result as a solution {which} {says}."
+    return f"{AS_A_SOLUTION} {which} {says}."
 
 
 def shows(m: Any, mutant: Mutant) -> bool:
@@ -155,11 +165,22 @@ def is_in_its_form(m: Any, mutant: Mutant) -> bool:
     The lab's form is the one that the guide teaches; another right function may have
     steps that the student's has not.
     """
-    if mutant.body.own or _in_own_words(m, mutant):
-        return True
     own = _own_function(m, mutant)
+    if own is None or _in_own_words(m, mutant):
+        return True
+    if not _has_its_call(own.own, mutant):
+        return False
     others = [body.function for body in m.bodies]
-    return own is None or is_of_its_form(own.own, mutant, others)
+    return mutant.body.own or is_of_its_form(own.own, mutant, others)
+
+
+def _has_its_call(own: ast.FunctionDef, mutant: Mutant) -> bool:
+    """Return whether a student calls the function whose arguments a mutant swaps."""
+    node = mutant.edits[0][0].node
+    if mutant.kind != "order" or not isinstance(node, ast.Call):
+        return True
+    calls = (one for one in ast.walk(own) if isinstance(one, ast.Call))
+    return any(called(one) == called(node) for one in calls)
 
 
 def tells(mutant: Mutant) -> bool:
@@ -250,7 +271,21 @@ def what(
     if mutant.kind == "factor" and (says := _of_a_factor(new, line, given)):
         return says + ("" if line else EVERYWHERE if several else ONCE)
     says = _of_an_expression(mutant, place.node, new, line) or SAYS[mutant.kind]
+    if mutant.kind == "factor" and not _divides(mutant, place.node):
+        match new:
+            case ast.BinOp(ast.Constant(float(factor)), ast.Mult()):
+                says = OF_FACTORS.get(factor, says)
     return says + EVERYWHERE * several
+
+
+def _divides(mutant: Mutant, node: ast.expr) -> bool:
+    """Return whether an expression is in a denominator, where twice makes a half."""
+    divisions = (
+        one.right
+        for one in ast.walk(mutant.body.function)
+        if isinstance(one, ast.BinOp) and isinstance(one.op, ast.Div)
+    )
+    return any(one is node for right in divisions for one in ast.walk(right))
 
 
 def _of_a_factor(new: ast.expr, line: Line | None, given: Mapping[str, str]) -> str:
@@ -292,6 +327,8 @@ def _of_an_expression(
         pair = [_own(one, names) for one in (node.left, node.right)]
         if all(pair):
             return f"puts `{pair[0]}` and `{pair[1]}` in the wrong order"
+        if isinstance(node.op, ast.Sub):
+            return "subtracts two values in the wrong order, or reverses one sign"
     return ""
 
 
@@ -376,7 +413,12 @@ def _own_function(m: Any, mutant: Mutant) -> OwnFunction | None:
 
 def glosses(mutant: Mutant) -> list[str]:
     """Return what the reference's changed lines are; none if a comment is missing."""
-    lines = [getattr(place.node, "lineno", 0) for place, _ in mutant.edits]
+    nodes = [place.node for place, _ in mutant.edits]
+    names = {node.id for node in nodes if isinstance(node, ast.Name)}
+    every = len(names) == 1 < len(nodes) and all(isinstance(n, ast.Name) for n in nodes)
+    if every and mutant.kind in OF_A_VALUE and (meaning := mutant.body.meaning(*names)):
+        return [meaning]  # each use of one variable: the mistake is where it is made
+    lines = [getattr(node, "lineno", 0) for node in nodes]
     steps = dict.fromkeys(mutant.body.glosses.get(line, "") for line in lines)
     return list(steps) if all(steps) else []
 

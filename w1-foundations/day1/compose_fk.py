@@ -33,10 +33,36 @@ from .panda_chain import (
 )
 from .quat_to_R import NOT_NORMALISED, UNNORMALISED, XYZW_AND_NOT_NORMALISED
 
+I = np.eye(4)  # noqa: E741
+
 
 def _prefixes(rng):
     _, q = on(PANDA, count=1)(rng)[-1]
     return [(PANDA, q, Path(PATH[: k + 1])) for k in range(1, len(PATH))]
+
+
+def _by_place(model, q, path, first):
+    """Return the product with the angles that follow each other from `q[first]`."""
+    angles = np.roll(q, -first)
+    place = {joint: i for i, (_, joint) in enumerate(path)}
+    return product(
+        link(model, name)
+        @ (pose(se3.Rz(angles[place[joint]]), np.zeros(3)) if joint else I)
+        for name, joint in path
+    )
+
+
+def _counted(slug, first):
+    """Return the question whose answer shows that angles are taken by their place."""
+    return HeldOut(
+        slug,
+        "Your pose is correct for paths from the base, but your function takes "
+        "the angles from `q` by the position of a pair in `path`. For `PATH[2:]`, "
+        "joint2 therefore rotates by the angle of another joint. The index of a "
+        "joint's angle should be `model.joint(name).qposadr[0]`.",
+        on(PANDA, PATH[2:], count=2),
+        mistaken=partial(_by_place, first=first),
+    )
 
 
 row = Row(
@@ -62,6 +88,8 @@ row = Row(
             on(PANDA, PATH[1:], count=2),
             mistaken=lambda model, q, path: fk(model, q, PATH[: len(path)]),
         ),
+        _counted("angle-by-place", 0),  # the first joint on the path has `q[0]`
+        _counted("angle-by-place", -1),  # pair i has `q[i - 1]`
         places.TYPED_IN,
     ],
     probe=_prefixes,
@@ -122,7 +150,6 @@ row.wrong(products.turns_in_reverse)
 
 # The factors themselves, and the finished pose.
 
-I = np.eye(4)  # noqa: E741
 IN_LINKS = "in each link's transform, "
 # The model has quaternions of length 1, the file has not. Of the file's, turned by 0 or
 # 90 degrees, the last two make the same matrix; task 1.4 tells them apart.
@@ -187,15 +214,6 @@ def _(model, q):
     return at(model.site("attachment_site").bodyid[0])
 
 
-@row.right  # Counts the joints: on a path from the base it is all the same.
-def _(model, q, path=PATH):
-    angle = iter(q)
-    return product(
-        link(model, name) @ (pose(se3.Rz(next(angle)), np.zeros(3)) if joint else I)
-        for name, joint in path
-    )
-
-
 @row.close("flange-turned-exactly")  # By 135 degrees; the file has seven digits.
 def _(model, q):
     flange = pose(se3.Rz(0.75 * np.pi), FLANGE_POS)
@@ -224,6 +242,26 @@ def _(model, q):
 @row.wrong("path-ignored")
 def _(model, q, path=PATH):
     return fk(model, q)
+
+
+FROM_THE_BASE = "each path in the lab begins at the base"
+
+
+@row.wrong("angle-by-place", hidden=FROM_THE_BASE)
+def _(model, q, path=PATH):
+    angle = iter(q)
+    return product(
+        link(model, name) @ (pose(se3.Rz(next(angle)), np.zeros(3)) if joint else I)
+        for name, joint in path
+    )
+
+
+@row.wrong("angle-by-place", hidden=FROM_THE_BASE)
+def _(model, q, path=PATH):
+    return product(
+        link(model, name) @ (pose(se3.Rz(q[i - 1]), np.zeros(3)) if joint else I)
+        for i, (name, joint) in enumerate(path)
+    )
 
 
 @row.wrong("typed-in", hidden="the lab has one Panda, and the numbers are its")

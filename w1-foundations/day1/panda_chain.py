@@ -12,7 +12,7 @@ import numpy as np
 
 from labkit.base.exchange import Path
 from labkit.judge import Robot
-from labkit.judge.matrices import pose
+from labkit.judge.matrices import pose, rigid_inverse
 from robo47 import panda, se3, verify
 from robo47.checks import Array
 
@@ -52,10 +52,15 @@ def on(robot, path=None, count=10):
 
 
 def by_mujoco(model, q, path=PATH) -> Array:
-    """Return the pose of a path's last body as MuJoCo computes it, (4, 4)."""
+    """Return the pose of a path's last body as MuJoCo computes it, (4, 4).
+
+    It is relative to the body that carries the path's first one: mostly the world.
+    """
+    poses = _poses(model, tuple(q))
     body = path[-1][0]
-    frame = "site:attachment_site" if body == "attachment" else f"body:{body}"
-    return _poses(model, tuple(q))[frame][0]
+    T = poses["site:attachment_site" if body == "attachment" else f"body:{body}"][0]
+    start = model.body(model.body(path[0][0]).parentid[0]).name
+    return T if start == "world" else rigid_inverse(poses[f"body:{start}"][0]) @ T
 
 
 @lru_cache(64)  # mistakes made with a finished pose ask for the same ones

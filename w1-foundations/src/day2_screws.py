@@ -128,7 +128,7 @@ def fk_space(screws: np.ndarray, M_home: np.ndarray, q: np.ndarray) -> np.ndarra
     # region 2.6
     T = np.eye(4)  # the motion before the first joint
     for S, theta in zip(screws, q, strict=True):
-        T = T @ exp_screw(S, theta)  # the motion of the joints up to this one
+        T = T @ exp_screw(S, theta)  # the combined motion of the joints
     return T @ M_home  # the end effector's pose, moved by all joints
     # endregion 2.6
 
@@ -174,7 +174,7 @@ def fk_body(body_screws: np.ndarray, M_home: np.ndarray, q: np.ndarray) -> np.nd
     # region 2.8
     T = M_home  # the end effector's pose at q = 0
     for B, theta in zip(body_screws, q, strict=True):
-        T = T @ exp_screw(B, theta)  # the pose after this joint's motion
+        T = T @ exp_screw(B, theta)  # the pose after the motion of one joint
     return T
     # endregion 2.8
 

@@ -108,7 +108,7 @@ def pose_error(T: np.ndarray, T_goal: np.ndarray) -> np.ndarray:
     0.2], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) -> [0, 0, pi / 2, 0.2, 0, 0]
     """
     # region 3.4
-    R_error = T_goal[:3, :3] @ T[:3, :3].T  # the rotation that is left, in the world
+    R_error = T_goal[:3, :3] @ T[:3, :3].T  # the rotation error in the world frame
     turn = log_rotation(R_error)  # the rotation vector of the error
     return np.append(turn, T_goal[:3, 3] - T[:3, 3])  # rotation vector, translation
     # endregion 3.4
@@ -155,7 +155,7 @@ def solve_ik(
         T = fk_space(screws, M_home, q)  # the present pose of the hand
         e = pose_error(T, T_goal)  # the pose error
         if e @ e < least:  # the comparison with the smallest squared error
-            best = q  # the best configuration so far
+            best = q  # the best known configuration
             least = e @ e  # the smallest squared error
         if least < 1e-8**2:  # the test of convergence
             break

@@ -56,11 +56,11 @@ def link_inertias(
     Robotics, section 8.2.3.
     """
     # region 4.2
-    G = []  # the spatial inertias so far
+    G = []  # the list of spatial inertias
     for T, m, c, inertia in zip(T_links, masses, coms, inertias, strict=True):
         R, p = T[:3, :3], T[:3, 3]  # rotation and translation of the link
         c_world = R @ c + p  # centre of mass in the world frame
-        about_com = R @ inertia @ R.T  # inertia about it in the world frame
+        about_com = R @ inertia @ R.T  # inertia about the centre of mass
         G.append(spatial_inertia(m, c_world, about_com))  # one spatial inertia
     return np.array(G)  # the spatial inertias
     # endregion 4.2
@@ -98,7 +98,7 @@ def gravity_torque(
     Source: Modern Robotics, section 8.1.1.
     """
     # region 4.4
-    tau = np.zeros(len(masses))  # the torques so far
+    tau = np.zeros(len(masses))  # the initial torques
     for i, (m, c) in enumerate(zip(masses, coms_world, strict=True)):
         J_com = J_space[3:] - skew(c) @ J_space[:3]  # velocity of c for each joint
         tau[: i + 1] -= m * g @ J_com[:, : i + 1]  # torque that holds one weight
@@ -137,7 +137,7 @@ def inverse_dynamics(
     # region 4.6
     V = np.zeros(6)  # twist of the base
     A = np.concatenate([np.zeros(3), -g])  # acceleration of the base, which carries g
-    wrenches = []  # the wrenches on the links so far
+    wrenches = []  # the list of wrenches on the links
     # Outward, from the base to the tip.
     for S, G_i, speed, acc in zip(J_space.T, G, qd, qdd, strict=True):
         V = V + S * speed  # twist of the link
@@ -145,7 +145,7 @@ def inverse_dynamics(
         A = A + S * acc + ad_V @ S * speed  # acceleration of the link
         wrenches.append(G_i @ A - ad_V.T @ G_i @ V)  # rate of the link's momentum
     F = np.zeros(6)  # wrench beyond the tip
-    tau = np.zeros(len(qd))  # the torques so far
+    tau = np.zeros(len(qd))  # the initial torques
     for i in reversed(range(len(qd))):  # inward, from the tip to the base
         F = F + wrenches[i]  # wrench on link i and all later links
         tau[i] = J_space[:, i] @ F  # component of the wrench along the joint's screw
@@ -181,7 +181,7 @@ def forward_dynamics(
     nothing accelerates. Source: Modern Robotics, section 8.5.
     """
     # region 4.8
-    net = tau - bias - damping * qd  # torque that is left for the acceleration
+    net = tau - bias - damping * qd  # torque for the acceleration
     return np.linalg.solve(M, net)  # solution of the linear system
     # endregion 4.8
 

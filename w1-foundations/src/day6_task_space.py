@@ -43,8 +43,8 @@ def task_inertia(J_site: np.ndarray, M: np.ndarray) -> np.ndarray:
     Source: Khatib (1987); Modern Robotics, section 8.6.
     """
     # region 6.1
-    mobility = J_site @ np.linalg.solve(M, J_site.T)  # from a wrench to an acceleration
-    return np.linalg.inv(mobility)  # from an acceleration to a wrench
+    mobility = J_site @ np.linalg.solve(M, J_site.T)  # the mobility matrix
+    return np.linalg.inv(mobility)  # the map from an acceleration to a wrench
     # endregion 6.1
 
 

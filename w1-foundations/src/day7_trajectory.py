@@ -56,7 +56,7 @@ def quintic_scaling(t: float, duration: float) -> np.ndarray:
     s = 10 * x**3 - 15 * x**4 + 6 * x**5  # the path parameter
     sd = (30 * x**2 - 60 * x**3 + 30 * x**4) / duration  # the velocity of s
     sdd = (60 * x - 180 * x**2 + 120 * x**3) / duration**2  # the acceleration of s
-    return np.array([s, sd, sdd])  # s, sd and sdd, in this order
+    return np.array([s, sd, sdd])  # the vector of s, sd and sdd
     # endregion 7.1
 
 
@@ -74,7 +74,7 @@ def quintic_duration(
     # region 7.2
     by_speed = 15 / 8 * np.abs(delta_q) / v_max  # the times for v_max
     by_accel = np.sqrt(10 / np.sqrt(3) * np.abs(delta_q) / a_max)  # the times for a_max
-    return max(by_speed.max(), by_accel.max())  # the longest of these times
+    return max(by_speed.max(), by_accel.max())  # the longest duration
     # endregion 7.2
 
 
@@ -120,7 +120,7 @@ def trapezoidal_profile(t: float, L: float, v: float, a: float) -> np.ndarray:
         return np.array([a * t**2 / 2, a * t, a])  # the state during acceleration
     if t < duration - ramp:
         return np.array([top * (t - ramp / 2), top, 0.0])  # the state at full velocity
-    left = max(duration - t, 0.0)  # the time that is left until the end
+    left = max(duration - t, 0.0)  # the remaining time until the end
     return np.array([
         L - a * left**2 / 2,  # the position during the deceleration
         a * left,  # the velocity during the deceleration

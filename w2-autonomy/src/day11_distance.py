@@ -76,8 +76,8 @@ def closest_points_segments(
     s = (  # the minimiser over both lines, clamped to the first segment
         np.clip((b * e - c * d) / across, 0, 1) if across > 1e-12 * a * c else 0.0
     )
-    t = np.clip((b * s + e) / c, 0, 1) if c > 0 else 0.0  # the best t for this s
-    s = np.clip((b * t - d) / a, 0, 1) if a > 0 else 0.0  # the best s for this t
+    t = np.clip((b * s + e) / c, 0, 1) if c > 0 else 0.0  # the best t for a fixed s
+    s = np.clip((b * t - d) / a, 0, 1) if a > 0 else 0.0  # the best s for a fixed t
     return np.array([a0 + s * u, b0 + t * v])  # the closest points
     # endregion 11.1
 

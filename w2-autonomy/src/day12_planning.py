@@ -59,7 +59,7 @@ def steer(q: np.ndarray, target: np.ndarray, step: float) -> np.ndarray:
     """
     # region 12.1
     distance = np.linalg.norm(target - q)  # the length of the whole segment
-    return (  # the target, or the point one step towards it
+    return (  # the target, or the point one step from q
         target.copy() if distance <= step else q + step / distance * (target - q)
     )
     # endregion 12.1
@@ -156,7 +156,7 @@ def rrt_connect(
         return way  # the branch from the node to the root
 
     for k, sample in enumerate(samples):
-        mine, other = k % 2, 1 - k % 2  # the tree of this sample, and the other one
+        mine, other = k % 2, 1 - k % 2  # the growing tree and the other tree
         if not grow(mine, sample):
             continue
         new = trees[mine][-1]  # the node that the other tree grows towards
@@ -279,7 +279,7 @@ def time_optimal_profile(
         low, high = path_accel_bounds(  # the permitted accelerations
             a[i], b[i], c[i], limits, np.sqrt(x)
         )
-        return (  # the test that one of them keeps the next sd^2 permitted
+        return (  # the test that the next sd^2 can be permitted
             low <= high and x + two_ds * low <= after and x + two_ds * high >= 0.0
         )
 
@@ -293,7 +293,7 @@ def time_optimal_profile(
             good, bad = (  # the half that contains the bound
                 (half, bad) if reached(i, half, most[i + 1]) else (good, half)
             )
-        most[i] = good  # the largest sd^2 at this point
+        most[i] = good  # the largest sd^2 at each point
     x = np.zeros(len(a))  # sd^2 of the motion
     for i in range(len(a) - 1):
         high = path_accel_bounds(  # the largest permitted acceleration

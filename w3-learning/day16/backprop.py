@@ -40,7 +40,13 @@ row.cases(
 
 @row.wrongs
 def _(x, d, W1, b1, W2, b2, W3, b3):
-    """dx-before-the-slope: your code omits the derivative of the first tanh from the
+    """slope-forgotten: your code omits the derivative of tanh. Multiply the gradient
+      with respect to the output h of each hidden layer by `1 - h^2`
+    slope-forgotten 2: your code omits the derivative of the first tanh. Multiply the
+      gradient with respect to the output h of the first hidden layer by `1 - h^2`
+    slope-forgotten 3: your code omits the derivative of the second tanh. Multiply the
+      gradient with respect to the output h of the second hidden layer by `1 - h^2`
+    dx-before-the-slope: your code omits the derivative of the first tanh from the
       gradient with respect to x. Multiply by `1 - h^2` before you multiply by W1^T,
       where h is the output of the first layer
     dx-with-input-slope: your code multiplies the gradient with respect to x by `1 -
@@ -82,6 +88,9 @@ def _(x, d, W1, b1, W2, b2, W3, b3):
     def of_tanh(h):
         return 1 - h**2
 
+    def no_slope(h):
+        return 1 + 0 * h
+
     def back(d, slope=of_tanh, second=None, h1=h1, h2=h2, of=None):
         d2 = (d @ W3.T) * (second or slope)(of[1] if of else h2)
         d1 = (d2 @ W2.T) * slope(of[0] if of else h1)
@@ -99,6 +108,9 @@ def _(x, d, W1, b1, W2, b2, W3, b3):
     sum2 = h1 @ W2 + b2
     bare = np.tanh(x @ W1)
     return {
+        "slope-forgotten": back(d, no_slope),
+        "slope-forgotten 2": back(d, no_slope, of_tanh),
+        "slope-forgotten 3": back(d, second=no_slope),
         "dx-before-the-slope": (*right[:6], d2 @ W2.T @ W1.T),
         "dx-with-input-slope": (*right[:6], right[6] * (1 - x**2)),
         "slope-of-h": back(d, lambda h: 1 - np.tanh(h) ** 2),

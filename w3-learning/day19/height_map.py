@@ -2,9 +2,30 @@
 
 import numpy as np
 
-from labkit.judge import Matrix, Row
+from labkit.judge import Matrix, Row, Slip
 
-row = Row(Matrix((None, None), "m", scale=0.05))
+SWAPPED = (
+    "Your code uses one row for each entry of xs. Use one row for each entry of ys "
+    "instead, because pixel [i, j] is at (xs[j], ys[i])."
+)
+ROWS_OF_XS = (  # a loop over xs whose index is an entry's first
+    r"for (\w+)(, \w+ in enumerate\(| in range\(len\()xs\)"
+    r"[\s\S]{1,400}\[\1, ?\w+\]"
+)
+row = Row(
+    Matrix((None, None), "m", scale=0.05),
+    slips=(
+        Slip(
+            r"^ValueError.*broadcast.*\((\d+),(\d+)\) \(\2,\1\)", "", "swapped", SWAPPED
+        ),
+        Slip(
+            "^IndexError.*out of bounds for axis",
+            ROWS_OF_XS,
+            "swapped",
+            SWAPPED,
+        ),
+    ),
+)
 
 
 def view(rng, k, w, h, size=0.05):

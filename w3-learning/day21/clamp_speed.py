@@ -15,6 +15,7 @@ def _(rng):
     yield np.array([0.2, 0.0]), 0.2  # just at the limit
     yield np.array([0.1, 0.2]), 0.0
     yield np.zeros(2), 0.25  # without a direction
+    yield np.zeros(2), 0.0  # neither a direction nor a speed
     for n in (1, 2, 2, 3, 3, 7):
         yield rng.numbers(-0.5, 0.5, n), float(rng.numbers(0.05, 0.6))
 
@@ -25,7 +26,12 @@ row.cases(
 )
 
 
-@row.wrongs(hidden={"squared-speed": "its limit is 1, which is its own square"})
+@row.wrongs(
+    hidden={
+        "squared-speed": "its limit is 1, which is its own square",
+        "zero-limit": "its limit is never 0",
+    }
+)
 def _(v, limit):
     """per-axis: your code clamps each entry separately, which changes the direction of
       the velocity. Multiply all entries by the same factor instead
@@ -43,6 +49,9 @@ def _(v, limit):
       the velocity by limit / speed instead, so that its norm is the limit
     at-rest: your code divides a zero velocity by its norm. Divide by the norm only if
       the norm is above the limit
+    zero-limit: your code divides the speed by the limit, and for a zero velocity and
+      the limit 0 this quotient is 0 / 0. Divide by the speed instead, and only if the
+      speed is above the limit
     squared-speed: your code compares the squared norm with the limit. Compare the norm
       with the limit instead, because the limit is a speed
     first-two: your code computes the norm from the first two entries only. Use all
@@ -60,6 +69,7 @@ def _(v, limit):
         "city-block": v * min(1, limit / total),
         "not-reduced": v if speed <= limit else v * limit,
         "at-rest": v / speed * min(speed, limit),
+        "zero-limit": v / np.maximum(1, speed / limit),
         "squared-speed": v if speed**2 <= limit else v * limit / speed,
         "first-two": v * min(1, limit / np.linalg.norm(v[:2])) if speed else v,
     }

@@ -56,7 +56,7 @@ def split_by_episode(episode: np.ndarray, held_out: np.ndarray) -> np.ndarray:
     (True, True, False, False, True).
     """
     # region 15.2
-    return np.isin(episode, held_out)  # the rows of these episodes
+    return np.isin(episode, held_out)  # the mask of the held-out rows
     # endregion 15.2
 
 

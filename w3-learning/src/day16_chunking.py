@@ -180,7 +180,7 @@ def temporal_ensemble(plans: np.ndarray, decay: float) -> np.ndarray:
     """
     # region 16.8
     k = len(plans)  # number of plans
-    now = np.array([plans[i, k - 1 - i] for i in range(k)])  # entries for this step
+    now = np.array([plans[i, k - 1 - i] for i in range(k)])  # the present entries
     weight = np.exp(-decay * np.arange(k))  # unnormalised weights
     return weight @ now / weight.sum()  # the weighted mean
     # endregion 16.8

@@ -54,9 +54,9 @@ def cosine_schedule(T: int) -> np.ndarray:
     """
     # region 17.1
     t = np.arange(T + 1) / T  # the time at both ends of each level, from 0 to 1
-    f = np.cos((t + 0.008) / 1.008 * np.pi / 2) ** 2  # f at these times
+    f = np.cos((t + 0.008) / 1.008 * np.pi / 2) ** 2  # f at the ends of the levels
     beta = np.minimum(1 - f[1:] / f[:-1], 0.999)  # the fraction that a level removes
-    return np.cumprod(1 - beta)  # the fraction that is left after each level
+    return np.cumprod(1 - beta)  # the remaining fraction after each level
     # endregion 17.1
 
 
@@ -123,7 +123,7 @@ def ddpm_step(
     """
     # region 17.5
     clean = (x - np.sqrt(1 - abar) * eps) / np.sqrt(abar)  # the clean samples
-    alpha = abar / prev  # the fraction of the power that is left from prev to abar
+    alpha = abar / prev  # the remaining fraction of the power from prev to abar
     of_clean = np.sqrt(prev) * (1 - alpha) / (1 - abar)  # weight of the clean samples
     of_x = np.sqrt(alpha) * (1 - prev) / (1 - abar)  # weight of x
     variance = (1 - prev) * (1 - alpha) / (1 - abar)  # the variance at the level prev

@@ -138,8 +138,8 @@ def gap_by_luck(p: float, n: int, gap: int) -> float:
     # region 18.5
     pmf = binomial_pmf(n, p)  # probabilities of the successes of one test
     k = np.arange(n + 1)  # the possible numbers
-    far = np.abs(k[:, None] - k) >= gap  # the pairs of numbers with such a gap
-    return np.sum(np.outer(pmf, pmf)[far])  # sum of the probabilities of these pairs
+    far = np.abs(k[:, None] - k) >= gap  # the pairs with a gap that is large enough
+    return np.sum(np.outer(pmf, pmf)[far])  # sum of the probabilities of the pairs
     # endregion 18.5
 
 
@@ -154,7 +154,7 @@ def paired_power(win: float, lose: float, n: int, level: float) -> float:
     # region 18.6
     differ = win + lose  # probability that exactly one policy succeeds
     first = win / differ if differ > 0 else 0.0  # win probability if policies differ
-    power = 0.0  # the power so far
+    power = 0.0  # the initial power
     for d, chance in enumerate(binomial_pmf(n, differ)):
         k = np.arange(d + 1)  # the possible numbers of wins
         few = np.cumsum(binomial_pmf(d, 0.5))  # probability of at most k wins

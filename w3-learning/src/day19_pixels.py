@@ -58,8 +58,8 @@ def height_map(
     highest = np.zeros((len(ys), len(xs)))  # the image of an empty table
     for (x, y), r in zip(centres, radii, strict=True):
         square = (xs - x) ** 2 + (ys[:, None] - y) ** 2  # squared distance of each ray
-        height = np.sqrt(np.maximum(r**2 - square, 0))  # height of this sphere
-        highest = np.maximum(highest, height)  # largest height at each pixel so far
+        height = np.sqrt(np.maximum(r**2 - square, 0))  # height of one sphere
+        highest = np.maximum(highest, height)  # largest height at each pixel
     return highest  # the height map
     # endregion 19.1
 
@@ -94,11 +94,11 @@ def conv2d(image: np.ndarray, kernel: np.ndarray, stride: int) -> np.ndarray:
     p, q = kernel.shape  # rows and columns of the kernel
     rows = (image.shape[0] - p) // stride + 1  # number of windows along y
     columns = (image.shape[1] - q) // stride + 1  # number of windows along x
-    out = 0  # the sum so far
+    out = 0  # the initial sum
     for a in range(p):
         for b in range(q):
             seen = image[a::stride, b::stride]  # entry [a, b] of the windows
-            out = out + kernel[a, b] * seen[:rows, :columns]  # the sum so far
+            out = out + kernel[a, b] * seen[:rows, :columns]  # the accumulated sum
     return out  # the sum of each window
     # endregion 19.3
 
@@ -114,8 +114,8 @@ def conv2d_gradient(
     0]]) -> ([[0, 1], [3, 4]], [[1, 0, 0], [0, 2, 0], [0, 0, 0]])
     """
     # region 19.4
-    of_kernel = np.zeros(kernel.shape)  # gradient with respect to the kernel, so far
-    of_image = np.zeros(image.shape)  # gradient with respect to the image, so far
+    of_kernel = np.zeros(kernel.shape)  # initial gradient with respect to the kernel
+    of_image = np.zeros(image.shape)  # initial gradient with respect to the image
     rows, columns = d.shape  # numbers of windows along y and x
     for a in range(kernel.shape[0]):
         for b in range(kernel.shape[1]):
@@ -124,7 +124,7 @@ def conv2d_gradient(
                 slice(b, b + stride * (columns - 1) + 1, stride),
             )
             of_kernel[a, b] = np.sum(d * image[seen])  # derivative for one kernel entry
-            of_image[seen] += d * kernel[a, b]  # gradient for these pixels, so far
+            of_image[seen] += d * kernel[a, b]  # accumulated gradient for the pixels
     return of_kernel, of_image  # both gradients
     # endregion 19.4
 
@@ -142,7 +142,7 @@ def spatial_softmax(
     """
     # region 19.5
     most = maps.max(axis=(1, 2), keepdims=True)  # the largest entry of each map
-    weight = np.exp((maps - most) / temperature)  # weights that are not normalised
+    weight = np.exp((maps - most) / temperature)  # unnormalised weights
     p = weight / weight.sum(axis=(1, 2), keepdims=True)  # the weights of the pixels
     x = np.sum(p * xs, axis=(1, 2))  # the expected x
     y = np.sum(p * ys[:, None], axis=(1, 2))  # the expected y
@@ -162,7 +162,7 @@ def spatial_softmax_gradient(
     """
     # region 19.6
     most = maps.max(axis=(1, 2), keepdims=True)  # the largest entry of each map
-    weight = np.exp((maps - most) / temperature)  # weights that are not normalised
+    weight = np.exp((maps - most) / temperature)  # unnormalised weights
     p = weight / weight.sum(axis=(1, 2), keepdims=True)  # the weights of the pixels
     at = d[:, 0, None, None] * xs + d[:, 1, None, None] * ys[:, None]  # x d_x + y d_y
     mean = np.sum(p * at, axis=(1, 2), keepdims=True)  # expected value of x d_x + y d_y

@@ -92,8 +92,8 @@ def returns(reward: np.ndarray, gamma: float, last: np.ndarray) -> np.ndarray:
     out = np.zeros(reward.shape)  # the returns
     after = last  # return from the next step on
     for t in reversed(range(len(reward))):
-        after = reward[t] + gamma * after  # return from this step on
-        out[t] = after  # the returns so far
+        after = reward[t] + gamma * after  # return from the present step on
+        out[t] = after  # the stored return
     return out
     # endregion 20.2
 
@@ -125,8 +125,8 @@ def gae(
     after = np.zeros(reward.shape[1])  # advantage of the next step
     for t in reversed(range(len(reward))):
         kept = np.where(ended[t], 0, after)  # advantage of the next step, or 0
-        after = delta[t] + gamma * lam * kept  # advantage of this step
-        out[t] = after  # the advantages so far
+        after = delta[t] + gamma * lam * kept  # advantage of the present step
+        out[t] = after  # the stored advantage
     return out
     # endregion 20.3
 
@@ -188,7 +188,7 @@ def policy_cost(
     cost = T * std**2 * np.trace(R)  # cost of the noise itself
     X = S  # matrix E[x x^T]
     for _ in range(T):
-        cost = cost + np.trace(weight @ X)  # the sum so far
+        cost = cost + np.trace(weight @ X)  # the accumulated cost
         X = M @ X @ M.T + std**2 * B @ B.T  # matrix E[x x^T] after the step
     return cost
     # endregion 20.6
@@ -215,10 +215,10 @@ def policy_cost_gradient(
     for _ in range(T - 1):
         moments.append(M @ moments[-1] @ M.T + std**2 * B @ B.T)
     P = np.zeros(Q.shape)  # cost-to-go after the last step
-    slope = np.zeros(K.shape)  # the sum so far
+    slope = np.zeros(K.shape)  # the initial gradient
     for X in reversed(moments):
-        slope = slope + 2 * (R @ K - B.T @ P @ M) @ X  # sum so far
-        P = Q + K.T @ R @ K + M.T @ P @ M  # cost-to-go from this step on
+        slope = slope + 2 * (R @ K - B.T @ P @ M) @ X  # accumulated gradient
+        P = Q + K.T @ R @ K + M.T @ P @ M  # cost-to-go from the present step on
     return slope
     # endregion 20.7
 
