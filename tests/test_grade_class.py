@@ -214,6 +214,9 @@ class TestTheClass:
         tasks = run("scripts/check_day.py", "--file", work).stdout.split("\n\n")[1]
         text = (graded.out / "feedback" / f"{name}.txt").read_text("utf-8")
         assert "your translation has the wrong sign" in tasks
+        of_a_check = re.findall(r"^ +All arguments: make check .*\n", tasks, re.M)
+        for line in of_a_check:  # a reader of the feedback has the call in it
+            tasks = tasks.replace(line, "")
         assert set(tasks.splitlines()) <= set(text.splitlines())
         assert "- call: inverse(T)" in text  # what it takes to appeal
         assert text.startswith(name)
