@@ -153,8 +153,9 @@ def test_a_notebook_is_shown_run_and_linked_from_its_days_page(site):
         for task in day.tasks:
             assert f'<span class="nf">{task.functions[0]}<' in page
         extras = (day.own / "notebook.toml").read_text("utf-8")
-        drawn = len(re.findall("picture\\(|render_panda", extras)) > 0
-        assert ("What the cell above draws" in page) == drawn
+        cells = len(re.findall("picture\\(|render_panda", extras))
+        drawn = page.count('alt="What the cell above draws"')
+        assert drawn == cells, f"day {day.number}: a cell stands before what it needs"
 
 
 def test_a_notebooks_page_has_what_a_cell_printed_and_the_picture_it_drew(tmp_path):
