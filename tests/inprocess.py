@@ -9,7 +9,9 @@ import functools
 import inspect
 import io
 import itertools
+import signal
 import sys
+import time
 import types
 from dataclasses import replace
 from pathlib import Path as File
@@ -62,11 +64,25 @@ class InProcess:
         """Return something to ask, as `Sandbox.session` does."""
         self.added = added
         self.module = self._load(script)
+        self.began = time.process_time()
         return self
 
-    def ask(self, questions):
-        """Ask each question once."""
-        return [self._ask(self.module, question, []) for question in questions]
+    def ask(self, questions, seconds=0.0):
+        """Ask each question once; a call that takes longer is stopped."""
+        return [self._within(seconds, question) for question in questions]
+
+    def _within(self, seconds, question):
+        before = signal.signal(signal.SIGALRM, _late)
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        try:
+            return self._ask(self.module, question, [])
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.signal(signal.SIGALRM, before)
+
+    def used(self):
+        """Return for how many seconds it had a processor; it did not wait."""
+        return time.process_time() - self.began, 0.0
 
     def close(self):
         """End it."""
@@ -129,6 +145,10 @@ class InProcess:
             form = tuple if isinstance(arg, tuple) else list
             return form(map(self._argument, arg))
         return arg.copy() if isinstance(arg, np.ndarray) else arg
+
+
+def _late(*_):
+    raise TimeoutError
 
 
 def _same(arg, was):

@@ -19,6 +19,7 @@ from labkit.judge.cases import in_cases
 from labkit.judge.guard import attempt, noting, quiet
 from labkit.judge.judge import judge, unjudged
 from labkit.judge.mistake import Verdict
+from labkit.judge.repair import changes_of, repaired
 from labkit.judge.replies_read import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
 from labkit.judge.row import inside, row_of
@@ -29,7 +30,7 @@ from labkit.lesson.slips import arguments, renamed, twice, unfinished
 from labkit.lesson.starter import function_lines
 from labkit.lesson.untrusted_files import SCRIPT
 from labkit.sandbox.messages import library_of, robots_of
-from labkit.sandbox.sandbox import Sandbox, deadline_of
+from labkit.sandbox.sandbox import Sandbox, Session, deadline_of
 
 FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
 
@@ -193,22 +194,40 @@ class _Check:
         """Return a verdict with the cases, or arguments, for which it is right."""
         all_asked = self.asked[task.id]
         asked = next(one for one in all_asked if one.function == verdict.function)
-        robots = robots_of([exchange.question for exchange in asked.main])
-        session = self.sandbox.session(
+        says = self._repaired(asked, added) or self._where_right(asked, verdict, added)
+        return replace(verdict, message=f"{verdict.message} {says}".strip())
+
+    def _repaired(self, asked: Asked, added: str) -> str:
+        """Return which line, changed once, makes a wrong function right; or ""."""
+        judged = {name for task in self.day.tasks for name in task.functions}
+        changes = changes_of(self.source, asked.function, judged)
+        if changes is None:
+            return ""
+        with quiet(), contextlib.suppress(LoadError):  # a change need be no Python
+            session = self._session(asked, f"{added}\n{changes.code}")
+            with contextlib.closing(session):
+                return repaired(asked, self.source, changes, session)
+        return ""
+
+    def _where_right(self, asked: Asked, verdict: Verdict, added: str) -> str:
+        """Return in which cases, or for which arguments, a function is right; or ""."""
+        names = arguments(self.source, asked.function)
+        with quiet(), contextlib.closing(self._session(asked, added)) as session:
+            return in_cases(asked, session.ask) or right_when(
+                asked, verdict.wrong_calls, names, session.ask
+            )
+
+    def _session(self, asked: Asked, added: str) -> Session:
+        """Return the student's file with some code below it, to be asked more."""
+        return self.sandbox.session(
             self.script,
-            robots,
+            robots_of([exchange.question for exchange in asked.main]),
             library_of(self.day),
             added,
             self.day.limits,
             brief=True,
             deadline=self.deadline,
         )
-        with contextlib.closing(session), quiet():
-            names = arguments(self.source, asked.function)
-            says = in_cases(asked, session.ask) or right_when(
-                asked, verdict.wrong_calls, names, session.ask
-            )
-        return replace(verdict, message=f"{verdict.message} {says}".strip())
 
 
 def _exchanges(asked: Sequence[Asked]) -> list[Exchange]:

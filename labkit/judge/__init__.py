@@ -28,6 +28,7 @@
     merged      adjacent ranges of a list of cases, told as one
     unusual     what is said of a function that is right at ordinary inputs alone
     right_when  with which argument neutral a wrong function is right
+    repair      which one change of a student's own text makes it right
     crossed     calls whose arguments are mixed, at their ends and between them
     chain       where along a serial chain a product goes wrong
     matrices    moves of matrices that need not be poses

@@ -242,10 +242,14 @@ class Body:
 
     def further(self) -> Iterator[tuple[Mutant, Code]]:
         """Yield all other mutants with their functions."""
-        yield from self.ready(list(_everywhere(self.near)))
-        yield from self.ready(list(self._of_lines(far=True)))
+        yield from chain.from_iterable(map(self.ready, self.far()))
+
+    def far(self) -> Iterator[list[Mutant]]:
+        """Yield all mutants that are not near, those that are made together at once."""
+        yield list(_everywhere(self.near))
+        yield list(self._of_lines(far=True))
         for place in self.places:
-            yield from self.ready(list(self._at(operators.far, place, FAR)))
+            yield list(self._at(operators.far, place, FAR))
 
     def besides(self, first: Mutant) -> list[tuple[Mutant, Code]]:
         """Return the near mutants that have another change as well, elsewhere."""
@@ -407,6 +411,12 @@ def _own_parts(statement: ast.stmt) -> Iterator[ast.AST]:
             if not isinstance(node, ast.stmt):
                 yield node
                 left.append(node)
+
+
+def is_alone(mutant: Mutant) -> bool:
+    """Return whether each change may stand wherever an expression may, or a line."""
+    some = ((at, new) for at, new in mutant.edits if isinstance(at, Place))
+    return all(_alone(place, new) for place, new in some)
 
 
 def _alone(place: Place, new: ast.expr) -> bool:

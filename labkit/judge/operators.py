@@ -319,6 +319,8 @@ def _of_name(node: ast.Name, names: Sequence[str], place: Place) -> Iterator[Mut
     for name in names:
         if name != node.id:
             yield "name", _name(name)
+    if place.field == "slice":
+        yield from filled("index: X + 1 | X - 1", X=node)
     if not isinstance(place.parent, ast.Attribute | ast.Subscript):
         yield from filled(OF_A_NAME, X=node)
         if isinstance(getattr(place.parent, "op", None), ast.MatMult):

@@ -1,0 +1,298 @@
+"""Which one change of a student's own text makes all of its answers right.
+
+A mutant of a right body explains a function that is written like it. A function in
+another style is changed itself: by the same operators, at the places of its own text.
+What is said then has been tried, whatever the style is.
+"""
+
+import ast
+import copy
+from collections import defaultdict
+from collections.abc import Sequence, Set
+from dataclasses import replace
+from itertools import chain, islice
+from typing import NamedTuple, Protocol
+
+from labkit.base.exchange import Exchange, Question, Reply
+from labkit.judge.answers import Parts
+from labkit.judge.ask import Ask, Asked, right_answers
+from labkit.judge.cases import NONE, RIGHT, drawn, verdict
+from labkit.judge.mistake import Finding
+from labkit.judge.mutant import FAR, Body, Mutant, is_alone
+from labkit.judge.operators import Place
+from labkit.judge.replies_read import read
+from labkit.judge.sentence import LONG
+from labkit.judge.statements import Block, Lines
+
+MOST = 800  # changes that are tried
+AT_ONCE = 50  # of them between two looks at the time
+SECONDS = 0.4  # of the processor, after which no more are tried
+CALL = 1.0  # second for a call, after which a change hangs
+SCREENED = 24  # changes that are tried at all calls
+FRESH = 60  # calls at which one is confirmed
+LEAST = 3  # wrong answers that have to become right
+STEPS = 2_000  # of a loop that a change may make endless
+AT, CALLED = "_robo47_at", "_robo47_changed_"
+LINES = 2  # that are named; of more than these it says little
+# What is changed, by the kind of a change.
+PARTS = {
+    "sign": "the signs", "negated": "the signs", "order": "the order of the operands",
+    "operation": "the operators", "name": "which variable is used",
+    "index": "the indices", "number": "the numbers", "bracket": "the brackets",
+    "transpose": "the transposes", "inverse": "the inverses",
+    "exchanged": "the order of the variables", "function": "which function is called",
+    "condition": "the condition", "entries": "the order of the entries",
+}  # fmt: skip
+BELOW = f"""
+{AT} = _robo47_steps = 0
+def _robo47_step():
+    global _robo47_steps
+    _robo47_steps += 1
+    if _robo47_steps > {STEPS}:
+        raise RuntimeError("a loop does not end")
+    return True
+def _robo47_change(k):
+    def call(*args):
+        global {AT}, _robo47_steps
+        {AT}, _robo47_steps = k, 0
+        return {{0}}(*args)
+    call.__wrapped__ = {{0}}
+    return call
+for _robo47_k in range({{1}} + 1):
+    globals()["{CALLED}" + str(_robo47_k)] = _robo47_change(_robo47_k)
+"""
+
+
+class Changes(NamedTuple):
+    """Changes of a student's text, and code that makes each when it is called."""
+
+    mutants: list[Mutant]
+    code: str
+
+    def ask(self, k: int, question: Question) -> Question:
+        """Return a question to the function with the k-th change."""
+        return replace(question, function=f"{CALLED}{k}")
+
+
+def changes_of(source: str, function: str, others: Set[str]) -> Changes | None:
+    """Return the changes of a function and its helpers; None where it has no text.
+
+    Args:
+        source: the student's file.
+        function: its name.
+        others: functions that are judged themselves.
+    """
+    try:
+        defined = _defined(source)
+    except (SyntaxError, ValueError):
+        return None
+    bodies = [Body(one, {}) for one in _reached(defined, function, others)]
+    near = sorted(chain.from_iterable(b.near for b in bodies), key=lambda m: m.rank)
+    far = chain.from_iterable(chain.from_iterable(b.far()) for b in bodies)
+    some = list(islice(filter(is_alone, chain(near, far)), MOST))
+    if not some:
+        return None
+    _put(some)
+    for body in bodies:
+        _limit(body.function)
+    functions = [ast.fix_missing_locations(body.function) for body in bodies]
+    text = "\n".join(map(ast.unparse, functions))
+    return Changes(some, text + BELOW.format(function, len(some)))
+
+
+def _defined(source: str) -> dict[str, ast.FunctionDef]:
+    """Return the functions of a file by name; without those that are decorated."""
+    some = [one for one in ast.parse(source).body if isinstance(one, ast.FunctionDef)]
+    return {one.name: one for one in some if not one.decorator_list}
+
+
+def _reached(
+    defined: dict[str, ast.FunctionDef], function: str, others: Set[str]
+) -> list[ast.FunctionDef]:
+    """Return a function and those of its file that it uses."""
+    found: dict[str, ast.FunctionDef] = {}
+    left = [function]
+    while left:
+        name = left.pop()
+        if name in found or name not in defined or (name in others and found):
+            continue
+        found[name] = defined[name]
+        nodes = ast.walk(defined[name])
+        left += [node.id for node in nodes if isinstance(node, ast.Name)]
+    return list(found.values())
+
+
+def _put(some: Sequence[Mutant]) -> None:
+    """Write changes into their functions, each behind the number that chooses it.
+
+    What stands in a place is copied first, as it has places itself.
+    """
+    places: dict[int, list[tuple[int, Place, ast.expr]]] = defaultdict(list)
+    blocks: dict[int, list[tuple[int, Block, Lines]]] = defaultdict(list)
+    for k, mutant in enumerate(some, 1):
+        for at, new in mutant.edits:
+            if isinstance(at, Block):
+                blocks[id(at.lines)].append((k, at, new))
+            else:
+                text = ast.Name(f"({ast.unparse(new)})")
+                places[id(at.node)].append((k, at, text))
+    chosen = [(alike[0][1], _chosen_lines(alike)) for alike in blocks.values()]
+    for each in places.values():
+        each[0][1].put(_chosen(each))
+    for block, lines in chosen:
+        block.put(lines)
+
+
+def _chosen(alike: Sequence[tuple[int, Place, ast.expr]]) -> ast.expr:
+    """Return an expression that is the one of the number in `AT`."""
+    *first, (_, place, whole) = alike
+    for k, _, new in first:
+        whole = ast.IfExp(_is([k]), new, whole)
+    return ast.IfExp(_is([k for k, _, _ in alike]), whole, place.node)
+
+
+def _chosen_lines(alike: Sequence[tuple[int, Block, Lines]]) -> Lines:
+    """Return the lines of a block, of which a number in `AT` chooses other ones."""
+    before = alike[0][1].before
+    there = [(k, *_apart(before, new)) for k, _, new in alike]
+    found: Lines = []
+    for i in range(len(before) + 1):
+        for k, begin, _, instead in there:
+            if begin == i:
+                found.append(ast.If(_is([k]), instead or [ast.Pass()], []))
+        if i < len(before):
+            without = [k for k, begin, end, _ in there if begin <= i < end]
+            line = before[i]
+            others = ast.UnaryOp(ast.Not(), _is(without))
+            found.append(ast.If(others, [line], []) if without else line)
+    return found
+
+
+def _apart(before: Lines, new: Lines) -> tuple[int, int, Lines]:
+    """Return which lines are replaced, from and to before, and a copy of the new."""
+    n = min(len(before), len(new))
+    begin = next((i for i in range(n) if before[i] is not new[i]), n)
+    after = next(
+        (i for i in range(n - begin) if before[-1 - i] is not new[-1 - i]), n - begin
+    )
+    instead = copy.deepcopy(new[begin : len(new) - after])
+    return begin, len(before) - after, instead
+
+
+def _is(numbers: Sequence[int]) -> ast.expr:
+    """Return the condition that `AT` is one of some numbers."""
+    at = ast.Name(AT, ast.Load())
+    if len(numbers) == 1:  # the usual case
+        return ast.Compare(at, [ast.Eq()], [ast.Constant(numbers[0])])
+    some = ast.Set([ast.Constant(k) for k in numbers])
+    return ast.Compare(at, [ast.In()], [some])
+
+
+def _limit(function: ast.FunctionDef) -> None:
+    """Have the loops of a function end that a change may keep going."""
+    for node in ast.walk(function):
+        if isinstance(node, ast.While):
+            step = ast.Call(ast.Name("_robo47_step", ast.Load()), [], [])
+            node.test = ast.BoolOp(ast.And(), [step, node.test])
+
+
+class Asker(Protocol):
+    """A student's file with all changes, which answers questions."""
+
+    def ask(self, questions: Sequence[Question], seconds: float) -> Sequence[Reply]:
+        """Return one reply per question, for which it has some seconds."""
+
+    def used(self) -> tuple[float, float]:
+        """Return for how many seconds it had a processor, and waited for one."""
+
+
+def repaired(asked: Asked, source: str, changes: Changes, asker: Asker) -> str:
+    """Return which line of a wrong function, changed once, makes it right; or "".
+
+    Args:
+        asked: what it was asked, with the replies.
+        source: the student's file.
+        changes: of the function.
+        asker: has the file with the code of the changes.
+    """
+    known = [*asked.main, *asked.fresh]
+    wrong = [one for one in known if verdict(asked.ask, one) not in (RIGHT, NONE)]
+    if len(wrong) < LEAST:
+        return ""
+    holding = _screened(asked.ask, wrong[len(wrong) // 2], changes, asker)
+    calls = [one.question for one in known]
+    holding = [k for k in holding if _holds(asked.ask, changes, k, calls, asker)]
+    if not holding:
+        return ""
+    fresh = islice(drawn(asked.ask, [one.args for one in calls]), FRESH)
+    more = [replace(calls[0], args=call) for call in fresh]
+    holding = [k for k in holding if _holds(asked.ask, changes, k, more, asker)]
+    mutants = [changes.mutants[k - 1] for k in holding]
+    return _told(mutants, source, len(calls) + len(more))
+
+
+def _screened(row: Ask, wrong: Exchange, changes: Changes, asker: Asker) -> list[int]:
+    """Return the numbers of changes that make one wrong answer right."""
+    found: list[int] = []
+    right = right_answers(row, [wrong])
+    (unchanged,) = asker.ask([changes.ask(0, wrong.question)], CALL)
+    if _gives(row, wrong.question, unchanged, right):
+        return found  # it is another function that was asked
+    numbers = range(1, len(changes.mutants) + 1)
+    for at in range(0, len(numbers), AT_ONCE):
+        some = numbers[at : at + AT_ONCE]
+        came = asker.ask([changes.ask(k, wrong.question) for k in some], CALL)
+        if len(came) < len(some) or came[-1].kind == "stopped":
+            break
+        pairs = zip(some, came, strict=True)
+        found += [k for k, one in pairs if _gives(row, wrong.question, one, right)]
+        if len(found) >= SCREENED or asker.used()[0] > SECONDS:
+            break
+    return found[:SCREENED]
+
+
+def _holds(
+    row: Ask, changes: Changes, k: int, calls: Sequence[Question], asker: Asker
+) -> bool:
+    """Return whether a change makes every one of some answers right."""
+    came = asker.ask([changes.ask(k, one) for one in calls], CALL)
+    return all(_is_right(row, call, one) for call, one in zip(calls, came, strict=True))
+
+
+def _gives(row: Ask, question: Question, reply: Reply, right: Parts) -> bool:
+    """Return whether a reply is a right answer, or may be one with many of them."""
+    if reply.kind:
+        return False
+    S = read([Exchange(question, reply)], row)
+    if isinstance(S, Finding):
+        return False
+    same = all(s.shape == t.shape for s, t in zip(S, right, strict=True))
+    return same and float(row.gaps(S, right).max()) <= row.tolerance
+
+
+def _is_right(row: Ask, question: Question, reply: Reply) -> bool:
+    return not reply.kind and verdict(row, Exchange(question, reply)) in (RIGHT, NONE)
+
+
+def _told(mutants: Sequence[Mutant], source: str, calls: int) -> str:
+    """Return where the changes are that make all answers right; "" if anywhere."""
+    near = [mutant for mutant in mutants if mutant.rank < FAR]
+    found = near or mutants
+    numbers = list(dict.fromkeys(mutant.spans[0][0] for mutant in found))
+    if not 1 <= len(numbers) <= LINES:
+        return ""
+    text = source.splitlines()
+    lines = " or in ".join(_line(n, text[n - 1]) for n in numbers)
+    says = f"One change in {lines} makes all {calls} results correct that were tried."
+    kinds = {mutant.kind for mutant in near}
+    what = PARTS.get(kinds.pop(), "") if len(kinds) == 1 else ""
+    return f"{says} Check {what} there." if what else says
+
+
+def _line(number: int, text: str) -> str:
+    """Return a line by its number, and as it is written if that is short."""
+    code = text.partition("  # ")[0].strip()
+    whole = all(code.count(one) == code.count(two) for one, two in ("()", "[]"))
+    return (
+        f"line {number}, `{code}`," if whole and len(code) <= LONG else f"line {number}"
+    )

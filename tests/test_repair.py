@@ -1,0 +1,117 @@
+"""A wrong function in another style: which of its own lines, changed once, is right."""
+
+from dataclasses import replace
+
+import inprocess
+import pytest
+
+from labkit.judge import repair
+from labkit.lesson.day import find_day
+from labkit.lesson.lab_module import definition
+
+pytestmark = pytest.mark.kit
+
+# Newton and Euler's recursion, link by link; the lab has matrices of all links.
+RECURSION = """
+def inverse_dynamics(J_space, G, qd, qdd, gravity):
+    n = len(qd)
+    V, A = np.zeros((n + 1, 6)), np.zeros((n + 1, 6))
+    A[0, 3:] = -gravity
+    for i in range(n):
+        S = J_space[:, i]
+        V[i + 1] = V[i] + S * qd[i]
+        A[i + 1] = A[i] + S * qdd[i] + ad(V[i]) @ S * qd[i]
+    force = np.zeros(6)
+    tau = np.zeros(n)
+    for i in range(n - 1, -1, -1):
+        G_i = G[i]
+        momentum = G_i @ V[MOVED]
+        force = force + G_i @ A[i + 1] - ad(V[i + 1]).T @ momentum
+        tau[i] = J_space[:, i] @ force
+    return tau
+"""
+
+
+def written(tmp_path, number, function, body):
+    """Return a day without needs, and its complete lab with another function."""
+    day = find_day(number)
+    tasks = tuple(replace(task, needs=()) for task in day.tasks)
+    text = day.source.read_text("utf-8")
+    own = definition(text, function)
+    lines = text.splitlines()
+    lines[own.lineno - 1 : own.end_lineno] = body.strip().splitlines()
+    script = tmp_path / day.source.name
+    script.write_text("\n".join(lines) + "\n", "utf-8")
+    return replace(day, tasks=tasks), script
+
+
+def says_of(tmp_path, number, task, function, body):
+    """Return the verdict on a day's task with another function."""
+    day, script = written(tmp_path, number, function, body)
+    return inprocess.verdicts(day, script, task)[task]
+
+
+def test_a_function_in_another_style_is_told_its_line(tmp_path):
+    wrong = RECURSION.replace("MOVED", "i")  # the link before
+    verdict = says_of(tmp_path, 4, "4.6", "inverse_dynamics", wrong)
+    assert "`momentum = G_i @ V[i]`, makes all" in verdict.message
+    assert verdict.message.endswith("Check the indices there.")
+
+
+def test_the_same_function_without_the_mistake_passes(tmp_path):
+    right = RECURSION.replace("MOVED", "i + 1")
+    verdict = says_of(tmp_path, 4, "4.6", "inverse_dynamics", right)
+    assert verdict.status == "passed"
+
+
+def test_a_function_of_two_mistakes_is_told_no_line(tmp_path):
+    wrong = RECURSION.replace("MOVED", "i").replace("-gravity", "-2.0 * gravity[::-1]")
+    verdict = says_of(tmp_path, 4, "4.6", "inverse_dynamics", wrong)
+    assert "One change" not in verdict.message
+
+
+HELPED = """
+import numpy as np
+
+def turn(x, n):
+    while n > 0.5:
+        x = np.array([x[1], x[0]])
+        n = n - 1
+    return x
+
+def other(x):
+    return x + 1
+
+def asked(x, n):
+    return turn(other(x), n) * 3
+"""
+
+
+def test_helpers_are_changed_and_functions_that_are_judged_are_not():
+    changes = repair.changes_of(HELPED, "asked", {"asked", "other"})
+    assert {one.body.function.name for one in changes.mutants} == {"asked", "turn"}
+    assert "def other" not in changes.code
+
+
+def test_each_change_is_made_by_its_number_and_ends():
+    import numpy as np
+
+    changes = repair.changes_of(HELPED, "asked", {"asked"})
+    space = {}
+    exec(HELPED + changes.code, space)
+    x = np.array([1.0, 2.0])
+    answers = []
+    for k in range(len(changes.mutants) + 1):
+        try:
+            answers.append(space[f"{repair.CALLED}{k}"](x, 3.0))
+        except Exception:  # a change need not have an answer
+            answers.append(None)
+    assert len(answers) > 100
+    np.testing.assert_array_equal(answers[0], [9.0, 6.0])
+    signs = [k for k, one in enumerate(changes.mutants, 1) if one.kind == "sign"]
+    assert any(np.array_equal(answers[k], [3.0, 0.0]) for k in signs)  # x - 1
+
+
+@pytest.mark.parametrize("source", ["", "def asked(:", "@cache\ndef asked(x): pass"])
+def test_a_function_without_a_text_has_no_changes(source):
+    assert repair.changes_of(source, "asked", set()) is None
