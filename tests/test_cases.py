@@ -7,7 +7,8 @@ from toyrows import row_of
 from labkit.base.exchange import Reply
 from labkit.judge import Scalar, Vector
 from labkit.judge.ask import asked_of
-from labkit.judge.cases import in_cases
+from labkit.judge.carried import carried
+from labkit.judge.cases import RIGHT, WRONG, in_cases, sentence
 from labkit.judge.merged import merged
 from labkit.judge.resized import resized, sizes_by_axis
 from labkit.judge.row import rows_of
@@ -273,7 +274,7 @@ OF_THE_REVIEW = [
      "fast, at a distance of 0 or less."),
     (11, shallow, "points beyond three faces. It is wrong for points in the box."),
     (12, long_edges, "worlds without a disc. Sometimes wrong: edges that "),
-    (12, coarse, "worlds without a disc. Sometimes wrong: edges that start"),
+    (12, coarse, "correct for edges that are free. It is sometimes wrong for edges"),
     (12, capped, "Even for paths on which "),
 ]  # fmt: skip
 
@@ -299,3 +300,56 @@ def test_a_case_that_is_right_with_a_short_list_alone_is_not_listed():
     row = rows_of(find_day(12))["segment_free_of_discs"]
     right = told(row, nearest_centre_alone).partition("Sometimes wrong")[0]
     assert "edges that touch a disc" not in right
+
+
+def nearest_to_the_edge_alone(a, b, discs):
+    """Return whether an edge misses the disc whose centre is nearest to the edge."""
+    if not len(discs):
+        return True
+    along = b - a
+    part = np.clip((discs[:, :2] - a) @ along / max(along @ along, 1e-300), 0, 1)
+    away = np.linalg.norm(a + part[:, None] * along - discs[:, :2], axis=1)
+    return planning.segment_free_of_discs(a, b, discs[[np.argmin(away)]])
+
+
+def test_a_case_is_right_only_if_it_is_right_beside_what_made_other_calls_wrong():
+    """An edge of length 0 lies in a large disc behind a nearer centre: 25 in 2,000."""
+    row = rows_of(find_day(12))["segment_free_of_discs"]
+    right = told(row, nearest_to_the_edge_alone).partition("ometimes wrong")[0]
+    assert "edges of length 0" not in right
+
+
+def test_a_call_takes_arguments_of_a_case_or_one_of_its_own_twice():
+    case = [(n, n, np.full(2, n)) for n in (1.0, 2.0)]
+    others = [(3.0, 4.0, np.full(m, 5.0)) for m in (1, 3)]
+    some = [(x, y, *z) for x, y, z in carried(case, others, [*case, *others])]
+    assert {(1.0, 1.0, 5.0), (4.0, 4.0, 5.0, 5.0, 5.0), (3.0, 1.0, 1.0, 1.0)} <= {*some}
+    assert not {*some} & {(x, y, *z) for x, y, z in [*case, *others]}
+    some = carried(case, [(3.0, 4.0, np.ones(2))], case)
+    assert {len(z) for _, _, z in some} == {2}
+
+
+def test_sizes_that_belong_together_are_carried_together():
+    case = [(np.zeros((n, 3)), np.arange(n), 0.0) for n in (2, 3)]
+    others = [(np.ones((n, 3)), np.arange(n), 1.0) for n in (4, 5)]
+    for x, y, _ in carried(case, others, [*case, *others]):
+        assert len(x) == len(y)
+
+
+def test_only_is_not_said_where_a_call_contradicts_another_case():
+    cases = {f"numbers of {i}": lambda call, i=i: call[0] == i for i in range(6)}
+    old = [((i,), WRONG if i == 0 else RIGHT) for i in range(6) for _ in range(99)]
+    assert "only for numbers of 0" in sentence(cases, old, old)[1]
+    _, says = sentence(cases, old, old, {"numbers of 5"})
+    assert "only" not in says
+    assert "numbers of 5" not in says
+
+
+def test_fresh_calls_are_those_of_every_line_of_a_row():
+    """The first two larger strides of the row always have one size."""
+    row = rows_of(find_day(19))["conv2d"]
+    (code,) = [w.code for w in row.ways if w.slug == "counted-before-the-division"]
+    assert told(row, code) == (
+        "The result is correct for a stride of 1. "
+        "It is sometimes wrong for a larger stride."
+    )
