@@ -13,7 +13,7 @@ from labkit.judge.merged import merged
 from labkit.judge.resized import resized, sizes_by_axis
 from labkit.judge.row import rows_of
 from labkit.lesson.day import find_day
-from robo47 import distance, planning
+from robo47 import distance, planning, reward
 
 pytestmark = pytest.mark.kit
 
@@ -334,6 +334,30 @@ def test_sizes_that_belong_together_are_carried_together():
     others = [(np.ones((n, 3)), np.arange(n), 1.0) for n in (4, 5)]
     for x, y, _ in carried(case, others, [*case, *others]):
         assert len(x) == len(y)
+
+
+def test_a_call_is_resized_to_any_size_that_no_call_of_its_case_has():
+    known = [(np.arange(float(n)), n) for n in (1, 2, 4, 5, 6, 7)]
+    sizes = [len(x) for x, _ in resized(known[:2], known)]
+    assert sizes == [4, 4, 5, 5, 7, 7]
+
+
+def test_another_call_is_carried_with_the_sizes_of_a_case():
+    case, others = [(np.zeros(2),)], [(np.full(5, 3.0),)]
+    some = list(carried(case, others, [*case, *others]))
+    assert some
+    assert all(np.array_equal(x, [3.0, 3.0]) for (x,) in some)
+
+
+def long_lists(logp, old_logp, advantage, clip):
+    """Return the loss, which is off by 1 for lists of five or more."""
+    loss, gradient = reward.ppo_loss(logp, old_logp, advantage, clip)
+    return loss + (len(logp) > 4), gradient
+
+
+def test_a_case_whose_fresh_calls_are_all_short_is_not_right_for_that():
+    row = rows_of(find_day(20))["ppo_loss"]
+    assert "negative advantages" not in told(row, long_lists)
 
 
 def test_only_is_not_said_where_a_call_contradicts_another_case():

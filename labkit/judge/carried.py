@@ -3,7 +3,8 @@
 A function that tests one disc alone is right for edges of length 0 until such an edge
 meets discs at which another edge was answered wrongly. Fresh calls seldom have both.
 Here a call takes some arguments from a call of the case and the others from another
-call; or it takes one argument twice, if calls of the case have equal ones.
+call; or it takes one argument twice, if calls of the case have equal ones; or it is
+another call with the sizes of one of the case.
 """
 
 from collections.abc import Iterator, Sequence
@@ -12,10 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from labkit.judge.resized import Axis, sizes_by_axis
+from labkit.judge.resized import Axis, size_of, sizes_by_axis, with_size
 
 TRIES = 600  # calls that are put together, of which some are of the case
-COPIED = 1 / 3  # the share of these in which an argument is given twice
+# Of these the share that is resized alone, of the others the share with an argument
+# twice, and of the rest the share that is crossed without new sizes.
+RESIZED, COPIED, CROSSED = 1 / 4, 1 / 3, 1 / 2
 SEED = 6151
 Call = tuple[Any, ...]
 
@@ -34,19 +37,34 @@ def carried(
     calls, others, known = (
         [call for call in some if len(call) == n] for some in (calls, others, known)
     )
-    if n < 2 or not others:
+    if not n or not others:
         return
     rng = np.random.default_rng(SEED)
-    groups = [axes for axes in sizes_by_axis(known).values() if len(axes) > 1]
+    groups = [*sizes_by_axis(known).values()]
     pairs = _equal(calls)
     for _ in range(TRIES):
         one, other = (some[int(rng.integers(len(some)))] for some in (calls, others))
-        if pairs and rng.random() < COPIED:
+        alike = _with_sizes_of(one, other, groups, rng)
+        if rng.random() < RESIZED and alike is not other:
+            call = alike
+        elif pairs and rng.random() < COPIED:
             call = _copied(other, *pairs[int(rng.integers(len(pairs)))])
+        elif n > 1:
+            call = _crossed(one, other if rng.random() < CROSSED else alike, rng)
         else:
-            call = _crossed(one, other, rng)
+            continue
         if _fit(call, groups):
             yield call
+
+
+def _with_sizes_of(
+    one: Call, other: Call, groups: Sequence[Sequence[Axis]], rng: np.random.Generator
+) -> Call:
+    """Return another call with the sizes of one, or itself if it has them."""
+    for axes in groups:
+        if (size := size_of(one, axes)) != size_of(other, axes):
+            other = with_size(other, axes, size, rng)
+    return other
 
 
 def _crossed(one: Call, other: Call, rng: np.random.Generator) -> Call:
