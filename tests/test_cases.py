@@ -13,7 +13,7 @@ from labkit.judge.merged import merged
 from labkit.judge.resized import resized, sizes_by_axis
 from labkit.judge.row import rows_of
 from labkit.lesson.day import find_day
-from robo47 import distance, planning, reward
+from robo47 import deploy, distance, planning, reward
 
 pytestmark = pytest.mark.kit
 
@@ -377,3 +377,15 @@ def test_fresh_calls_are_those_of_every_line_of_a_row():
         "The result is correct for a stride of 1. "
         "It is sometimes wrong for a larger stride."
     )
+
+
+def off_near_the_origin(obs, *others):
+    """Return the next observation, which is off by 0.1 near the origin."""
+    near = np.abs(obs).max() < 0.06
+    return deploy.push_ahead(obs, *others) + 0.1 * near
+
+
+def test_actions_without_a_contact_are_drawn_near_the_origin_too():
+    row = rows_of(find_day(21))["push_ahead"]
+    says = told(row, off_near_the_origin)
+    assert "correct for actions without a contact" not in says
