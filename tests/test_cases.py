@@ -340,6 +340,9 @@ def test_a_call_is_resized_to_any_size_that_no_call_of_its_case_has():
     known = [(np.arange(float(n)), n) for n in (1, 2, 4, 5, 6, 7)]
     sizes = [len(x) for x, _ in resized(known[:2], known)]
     assert sizes == [4, 4, 5, 5, 7, 7]
+    # Equal entries may make a wrong function right: not of a wrong case.
+    sizes = [len(x) for x, _ in resized(known[1:4], known, twice=False)]
+    assert sizes == [1, 1]
 
 
 def test_another_call_is_carried_with_the_sizes_of_a_case():
@@ -347,6 +350,26 @@ def test_another_call_is_carried_with_the_sizes_of_a_case():
     some = list(carried(case, others, [*case, *others]))
     assert some
     assert all(np.array_equal(x, [3.0, 3.0]) for (x,) in some)
+
+
+def best_key_alone(queries, keys, values):
+    """Return for each query the value of its best key."""
+    return values[np.argmax(queries @ keys.T, axis=1)]
+
+
+def one_softmax(queries, keys, values):
+    """Return weighted values, with one softmax over all queries."""
+    scores = queries @ keys.T / np.sqrt(keys.shape[1])
+    weights = np.exp(scores - scores.max())
+    return weights @ values / weights.sum()
+
+
+def test_a_case_is_wrong_where_only_equal_entries_make_it_right():
+    row = rows_of(find_day(16))["attention"]
+    assert told(row, best_key_alone) == (
+        "The result is correct for one key. It is wrong for several keys."
+    )
+    assert "correct" not in told(row, one_softmax)  # of several queries
 
 
 def long_lists(logp, old_logp, advantage, clip):

@@ -202,7 +202,7 @@ def traits(row, call):
     for name, x in zip(row.arguments, call, strict=False):
         if isinstance(x, np.ndarray) and x.dtype.kind in "fiub":
             found |= {f"axis {i} of {name}": float(n) for i, n in enumerate(x.shape)}
-            found[f"sum of {name}"] = float(x.sum())
+            found[f"sum of {name}"] = float(x[np.isfinite(x)].sum())
     return found
 
 

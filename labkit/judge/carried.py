@@ -1,4 +1,4 @@
-"""Calls of a case that are made of calls of other cases, which were answered otherwise.
+"""Calls of a case that are made of calls of other cases, which were answered wrongly.
 
 A function that tests one disc alone is right for edges of length 0 until such an edge
 meets discs at which another edge was answered wrongly. Fresh calls seldom have both.
@@ -30,7 +30,7 @@ def carried(
 
     Args:
         calls: of a case.
-        others: of no such case.
+        others: which were answered wrongly.
         known: all calls; they show which sizes belong together.
     """
     n = len(calls[0]) if calls else 0

@@ -4,8 +4,8 @@ The author of a row names cases of its calls. They are counted among the calls t
 asked, and each is tried at fresh inputs: at fifty that are of the case, and at fifty
 that are not where a sentence says "only". A case that one call contradicts is not
 listed as right, nor as wrong. Further calls of a case can only contradict: calls with
-other sizes, where all have one size, and calls that have arguments of a call that was
-answered otherwise.
+sizes that its calls do not have, and calls of a right case that have arguments of a
+call that was answered wrongly.
 """
 
 import time
@@ -219,17 +219,22 @@ def _of_made(
 
 
 def _made(ask: Ask, holds: Callable[[Call], bool], known: Answered) -> Iterator[Call]:
-    """Yield calls of a case that has one verdict: resized, and carried into it."""
+    """Yield calls of a case that has one verdict: resized, and carried into it.
+
+    Those of a wrong case have no entry twice: with equal ones, a wrong function may be
+    right.
+    """
     every = [call for call, _ in known]
     of_case = [call for call in every if holds(call)]
-    how = next(how for call, how in known if holds(call))
-    for call in resized(of_case, every):
+    right = all(how == RIGHT for call, how in known if holds(call))
+    for call in resized(of_case, every, twice=right):
         if _asked_for(ask, holds, call):
             yield call
-    others = [call for call, told in known if told != how]
-    more = carried(of_case, others, every)
-    fitting = (call for call in more if _asked_for(ask, holds, call))
-    yield from islice(fitting, min(CARRIED, ask.each_case // 2))
+    if right:
+        others = [call for call, how in known if how != RIGHT]
+        more = carried(of_case, others, every)
+        fitting = (call for call in more if _asked_for(ask, holds, call))
+        yield from islice(fitting, min(CARRIED, ask.each_case // 2))
 
 
 def _asked_for(ask: Ask, holds: Callable[[Call], bool], call: Call) -> bool:

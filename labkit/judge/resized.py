@@ -31,17 +31,22 @@ def sizes_by_axis(calls: Sequence[Call]) -> dict[tuple[int, ...], list[Axis]]:
     return {sizes: axes for sizes, axes in together.items() if len(set(sizes)) > 1}
 
 
-def resized(calls: Sequence[Call], known: Sequence[Call]) -> Iterator[Call]:
+def resized(
+    calls: Sequence[Call], known: Sequence[Call], twice: bool = True
+) -> Iterator[Call]:
     """Yield some calls with a size that none of them has.
 
     Args:
         calls: of a case.
         known: all calls, of which calls are some.
+        twice: whether an entry may be given twice; else sizes are smaller ones.
     """
     rng = np.random.default_rng(SEED)
     for sizes, axes in sizes_by_axis(known).items():
         of_case = {size_of(call, axes) for call in calls}
         others = sorted(set(sizes) - of_case)
+        if not twice:
+            others = [size for size in others if size < min(of_case)]
         for size in [*others[: SIZES - 1], *others[SIZES - 1 :][-1:]]:
             for at in rng.permutation(len(calls))[:EACH]:
                 yield with_size(calls[at], axes, size, rng)
