@@ -7,12 +7,13 @@ from toyrows import row_of
 from labkit.base.exchange import Reply
 from labkit.judge import Scalar, Vector
 from labkit.judge.ask import asked_of
-from labkit.judge.cases import in_cases
+from labkit.judge.carried import carried
+from labkit.judge.cases import RIGHT, WRONG, in_cases, sentence
 from labkit.judge.merged import merged
 from labkit.judge.resized import resized, sizes_by_axis
 from labkit.judge.row import rows_of
 from labkit.lesson.day import find_day
-from robo47 import distance, planning
+from robo47 import deploy, distance, planning, reward
 
 pytestmark = pytest.mark.kit
 
@@ -273,7 +274,7 @@ OF_THE_REVIEW = [
      "fast, at a distance of 0 or less."),
     (11, shallow, "points beyond three faces. It is wrong for points in the box."),
     (12, long_edges, "worlds without a disc. Sometimes wrong: edges that "),
-    (12, coarse, "worlds without a disc. Sometimes wrong: edges that start"),
+    (12, coarse, "correct for edges that are free. It is sometimes wrong for edges"),
     (12, capped, "Even for paths on which "),
 ]  # fmt: skip
 
@@ -299,3 +300,115 @@ def test_a_case_that_is_right_with_a_short_list_alone_is_not_listed():
     row = rows_of(find_day(12))["segment_free_of_discs"]
     right = told(row, nearest_centre_alone).partition("Sometimes wrong")[0]
     assert "edges that touch a disc" not in right
+
+
+def nearest_to_the_edge_alone(a, b, discs):
+    """Return whether an edge misses the disc whose centre is nearest to the edge."""
+    if not len(discs):
+        return True
+    along = b - a
+    part = np.clip((discs[:, :2] - a) @ along / max(along @ along, 1e-300), 0, 1)
+    away = np.linalg.norm(a + part[:, None] * along - discs[:, :2], axis=1)
+    return planning.segment_free_of_discs(a, b, discs[[np.argmin(away)]])
+
+
+def test_a_case_is_right_only_if_it_is_right_beside_what_made_other_calls_wrong():
+    """An edge of length 0 lies in a large disc behind a nearer centre: 25 in 2,000."""
+    row = rows_of(find_day(12))["segment_free_of_discs"]
+    right = told(row, nearest_to_the_edge_alone).partition("ometimes wrong")[0]
+    assert "edges of length 0" not in right
+
+
+def test_a_call_takes_arguments_of_a_case_or_one_of_its_own_twice():
+    case = [(n, n, np.full(2, n)) for n in (1.0, 2.0)]
+    others = [(3.0, 4.0, np.full(m, 5.0)) for m in (1, 3)]
+    some = [(x, y, *z) for x, y, z in carried(case, others, [*case, *others])]
+    assert {(1.0, 1.0, 5.0), (4.0, 4.0, 5.0, 5.0, 5.0), (3.0, 1.0, 1.0, 1.0)} <= {*some}
+    assert not {*some} & {(x, y, *z) for x, y, z in [*case, *others]}
+    some = carried(case, [(3.0, 4.0, np.ones(2))], case)
+    assert {len(z) for _, _, z in some} == {2}
+
+
+def test_sizes_that_belong_together_are_carried_together():
+    case = [(np.zeros((n, 3)), np.arange(n), 0.0) for n in (2, 3)]
+    others = [(np.ones((n, 3)), np.arange(n), 1.0) for n in (4, 5)]
+    for x, y, _ in carried(case, others, [*case, *others]):
+        assert len(x) == len(y)
+
+
+def test_a_call_is_resized_to_any_size_that_no_call_of_its_case_has():
+    known = [(np.arange(float(n)), n) for n in (1, 2, 4, 5, 6, 7)]
+    sizes = [len(x) for x, _ in resized(known[:2], known)]
+    assert sizes == [4, 4, 5, 5, 7, 7]
+    # Equal entries may make a wrong function right: not of a wrong case.
+    sizes = [len(x) for x, _ in resized(known[1:4], known, twice=False)]
+    assert sizes == [1, 1]
+
+
+def test_another_call_is_carried_with_the_sizes_of_a_case():
+    case, others = [(np.zeros(2),)], [(np.full(5, 3.0),)]
+    some = list(carried(case, others, [*case, *others]))
+    assert some
+    assert all(np.array_equal(x, [3.0, 3.0]) for (x,) in some)
+
+
+def best_key_alone(queries, keys, values):
+    """Return for each query the value of its best key."""
+    return values[np.argmax(queries @ keys.T, axis=1)]
+
+
+def one_softmax(queries, keys, values):
+    """Return weighted values, with one softmax over all queries."""
+    scores = queries @ keys.T / np.sqrt(keys.shape[1])
+    weights = np.exp(scores - scores.max())
+    return weights @ values / weights.sum()
+
+
+def test_a_case_is_wrong_where_only_equal_entries_make_it_right():
+    row = rows_of(find_day(16))["attention"]
+    assert told(row, best_key_alone) == (
+        "The result is correct for one key. It is wrong for several keys."
+    )
+    assert "correct" not in told(row, one_softmax)  # of several queries
+
+
+def long_lists(logp, old_logp, advantage, clip):
+    """Return the loss, which is off by 1 for lists of five or more."""
+    loss, gradient = reward.ppo_loss(logp, old_logp, advantage, clip)
+    return loss + (len(logp) > 4), gradient
+
+
+def test_a_case_whose_fresh_calls_are_all_short_is_not_right_for_that():
+    row = rows_of(find_day(20))["ppo_loss"]
+    assert "negative advantages" not in told(row, long_lists)
+
+
+def test_only_is_not_said_where_a_call_contradicts_another_case():
+    cases = {f"numbers of {i}": lambda call, i=i: call[0] == i for i in range(6)}
+    old = [((i,), WRONG if i == 0 else RIGHT) for i in range(6) for _ in range(99)]
+    assert "only for numbers of 0" in sentence(cases, old, old)[1]
+    _, says = sentence(cases, old, old, {"numbers of 5"})
+    assert "only" not in says
+    assert "numbers of 5" not in says
+
+
+def test_fresh_calls_are_those_of_every_line_of_a_row():
+    """The first two larger strides of the row always have one size."""
+    row = rows_of(find_day(19))["conv2d"]
+    (code,) = [w.code for w in row.ways if w.slug == "counted-before-the-division"]
+    assert told(row, code) == (
+        "The result is correct for a stride of 1. "
+        "It is sometimes wrong for a larger stride."
+    )
+
+
+def off_near_the_origin(obs, *others):
+    """Return the next observation, which is off by 0.1 near the origin."""
+    near = np.abs(obs).max() < 0.06
+    return deploy.push_ahead(obs, *others) + 0.1 * near
+
+
+def test_actions_without_a_contact_are_drawn_near_the_origin_too():
+    row = rows_of(find_day(21))["push_ahead"]
+    says = told(row, off_near_the_origin)
+    assert "correct for actions without a contact" not in says

@@ -251,3 +251,15 @@ def test_a_row_s_condition_is_said_where_it_holds_alone():
     alone = ("x <= 1 and y <= 12 z", lambda x, y, z: x <= 1 and y <= 12 * z)
     assert ranged([alone]).startswith(f"The result is correct whenever {alone[0]}")
     assert "x <= 1" not in ranged([small])
+
+
+def test_a_condition_on_an_entry_does_not_hold_of_a_vector_without_it():
+    rng = np.random.default_rng(1)
+    calls = [(np.array([*x[:2], -abs(x[2])]),) for x in rng.normal(size=(8, 3))]
+    short = (np.array([0.6]),)  # was answered wrongly, too
+    right = lambda x: x[-1] * x  # noqa: E731
+    mine = lambda x: abs(x[-1]) * x if len(x) > 1 else x + 9  # noqa: E731
+    both = [lambda some, f=f: [f(*call) for call in some] for f in (mine, right)]
+    known = [*calls, short]
+    tried = Experiments(calls[-6:], ["x"], *both, 1e-5, known, [False] * 9)
+    assert tried.neutral() == "The result is correct whenever `x[2]` is not negative."

@@ -25,6 +25,7 @@
     odd_answers a mistake that stops, or changes its shape, at some questions
     cases       in which of its row's cases a wrong function is right
     resized     the calls of a case with other sizes, which can only contradict
+    carried     the same with arguments of calls that were answered wrongly
     merged      adjacent ranges of a list of cases, told as one
     unusual     what is said of a function that is right at ordinary inputs alone
     right_when  with which argument neutral a wrong function is right

@@ -3,12 +3,13 @@
 The author of a row names cases of its calls. They are counted among the calls that were
 asked, and each is tried at fresh inputs: at fifty that are of the case, and at fifty
 that are not where a sentence says "only". A case that one call contradicts is not
-listed as right, nor as wrong. Calls of a case that all have one size are asked with
-other sizes as well: these can only contradict.
+listed as right, nor as wrong. Further calls of a case can only contradict: calls with
+sizes that its calls do not have, and calls of a right case that have arguments of a
+call that was answered wrongly.
 """
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
@@ -19,6 +20,7 @@ from labkit.base.exchange import Exchange, Question, Reply
 from labkit.judge import valid
 from labkit.judge.answers import listed
 from labkit.judge.ask import Ask, Asked, as_plain, right_answers
+from labkit.judge.carried import carried
 from labkit.judge.crossed import crossed
 from labkit.judge.draw import Draw
 from labkit.judge.merged import merged
@@ -31,6 +33,7 @@ TRIED = 50  # fresh calls of a case at which a sentence is tried, at least
 EACH = 2  # calls of a case that one generator yields in a round, at most
 ROUNDS = 100  # generators that draw them, at most
 SECONDS = 1.5  # for drawing and comparing them, and as many for the replies
+CARRIED = 120  # calls of a case with arguments of others, at most
 BATCH = 40  # calls that are asked at once
 LISTED = 4  # cases in one list, at most
 SEED = 5947  # of the fresh inputs: none of the asked ones
@@ -116,10 +119,8 @@ def in_cases(
     old = [(e.question.args, verdict(ask, e)) for e in known]
     left: list[Cases] = [some for some in lists if _may_be_right(some, old)]
     new = list(_tried(asked, old, left, reply_to)) if left else []
-    left = [_of_any_size(asked, some, [*old, *new], reply_to) for some in left]
-    told = [found for some in left if (found := sentence(some, old, new))]
-    if told:
-        return min(told, key=lambda one: one[0])[1]
+    if told := _first_that_stays(asked, left, old, new, reply_to):
+        return told
     return in_all_cases(lists[0], old, new)
 
 
@@ -155,25 +156,85 @@ def _tried(
                 yield known[-1]
 
 
-def _of_any_size(
+def _first_that_stays(
+    asked: Asked,
+    lists: Sequence[Cases],
+    old: Answered,
+    new: Answered,
+    reply_to: Callable[[Sequence[Question]], Sequence[Reply]],
+) -> str:
+    """Return the sentence that leaves the fewest calls open, or "".
+
+    Before a list is told, calls are made that may contradict its cases.
+    """
+    against: dict[int, Set[str]] = {}
+    while True:
+        told = [
+            (*found, i)
+            for i, some in enumerate(lists)
+            if (found := sentence(some, old, new, against.get(i, frozenset())))
+        ]
+        if not told:
+            return ""
+        _, says, i = min(told, key=lambda one: one[0])
+        if i in against:
+            return says
+        against[i] = _contradicted(asked, lists[i], [*old, *new], reply_to)
+
+
+def _contradicted(
     asked: Asked,
     cases: Cases,
     known: Answered,
     reply_to: Callable[[Sequence[Question]], Sequence[Reply]],
-) -> Cases:
-    """Return the cases whose verdict, where it is one, calls of other sizes repeat."""
+) -> Set[str]:
+    """Return the cases with one verdict, which calls that are made do not repeat."""
+    told = {p: {how for call, how in known if of(call)} for p, of in cases.items()}
+    some = [phrase for phrase in cases if told[phrase] in ({RIGHT}, {WRONG})]
+    return {
+        phrase
+        for phrase in some
+        if any(
+            how not in (NONE, *told[phrase]) and (how, told[phrase]) != (CLOSE, {WRONG})
+            for how in _of_made(asked, cases[phrase], known, reply_to, len(some))
+        )
+    }
+
+
+def _of_made(
+    asked: Asked,
+    holds: Callable[[Call], bool],
+    known: Answered,
+    reply_to: Callable[[Sequence[Question]], Sequence[Reply]],
+    n: int,
+) -> Iterator[str]:
+    """Yield the verdicts on calls that are made of a case, which is one of n."""
+    calls = _made(asked.ask, holds, known)
+    waited = 0.0
+    while waited < SECONDS / n and (some := list(islice(calls, BATCH))):
+        began = time.monotonic()
+        replied = _answered(asked, some, reply_to)
+        waited += time.monotonic() - began
+        yield from (verdict(asked.ask, one) for one in replied)
+
+
+def _made(ask: Ask, holds: Callable[[Call], bool], known: Answered) -> Iterator[Call]:
+    """Yield calls of a case that has one verdict: resized, and carried into it.
+
+    Those of a wrong case have no entry twice: with equal ones, a wrong function may be
+    right.
+    """
     every = [call for call, _ in known]
-    kept = dict(cases)
-    for phrase, holds in cases.items():
-        told = {how for call, how in known if holds(call)}
-        if told not in ({RIGHT}, {WRONG}):
-            continue
-        some = resized([call for call in every if holds(call)], every)
-        calls = [call for call in some if _asked_for(asked.ask, holds, call)]
-        for one in _answered(asked, calls, reply_to):
-            if verdict(asked.ask, one) not in (NONE, *told):
-                kept.pop(phrase, None)
-    return kept
+    of_case = [call for call in every if holds(call)]
+    right = all(how == RIGHT for call, how in known if holds(call))
+    for call in resized(of_case, every, twice=right):
+        if _asked_for(ask, holds, call):
+            yield call
+    if right:
+        others = [call for call, how in known if how != RIGHT]
+        more = carried(of_case, others, every)
+        fitting = (call for call in more if _asked_for(ask, holds, call))
+        yield from islice(fitting, min(CARRIED, ask.each_case // 2))
 
 
 def _asked_for(ask: Ask, holds: Callable[[Call], bool], call: Call) -> bool:
@@ -204,25 +265,29 @@ def _kept(holds: Callable[..., bool]) -> Callable[[Call], bool]:
     return of
 
 
-def sentence(cases: Cases, old: Answered, new: Answered) -> tuple[int, str] | None:
+def sentence(
+    cases: Cases, old: Answered, new: Answered, contradicted: Set[str] = frozenset()
+) -> tuple[int, str] | None:
     """Return what is said of one list of cases, and how many calls it leaves open.
 
     Args:
         cases: by phrase.
         old: the calls that were asked.
         new: the fresh ones.
+        contradicted: the cases of which nothing is said; nor is "only" then.
     """
     tallies, others = {}, {}
     for phrase, holds in cases.items():
         tallies[phrase] = Tally(*(_of(some, holds, True) for some in (old, new)))
         others[phrase] = Tally(*(_of(some, holds, False) for some in (old, new)))
-    right = [p for p in cases if tallies[p].all(RIGHT)]
-    wrong = [p for p in cases if tallies[p].all(WRONG)]
+    asked = [p for p in cases if p not in contradicted]
+    right = [p for p in asked if tallies[p].all(RIGHT)]
+    wrong = [p for p in asked if tallies[p].all(WRONG)]
     mixed = [p for p in cases if tallies[p].mixed]
     left = sum(len(tallies[p].asked) for p in cases if p not in right + wrong)
     if not right or not wrong + mixed:
         return None
-    if len(right) > LISTED and len(wrong + mixed) == 1:
+    if len(right) > LISTED and len(wrong + mixed) == 1 and not contradicted:
         (one,) = wrong + mixed
         if others[one].all(RIGHT) and tallies[one].enough:
             how = "sometimes wrong, but" if mixed else "wrong"
@@ -307,7 +372,8 @@ def _rounds(ask: Ask, known: Sequence[Call]) -> Iterator[tuple[list[Call], int]]
         yield list(_longer(ask, some, lists, drawing)), EACH
         yield mixed[4 * n : 4 * n + 4], 1
         if ask.drawn and not slow:
-            yield [tuple(call) for call in ask.inputs(Draw(seed))][-ask.drawn :], EACH
+            some = [tuple(call) for call in ask.inputs(Draw(seed))][-ask.drawn :]
+            yield [some[i] for i in drawing.permutation(len(some))], EACH
             slow = bool(ask.rare) and time.process_time() - begin > SECONDS / 10
 
 

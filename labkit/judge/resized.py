@@ -1,6 +1,6 @@
 """Calls of another size: what is right for one key may be so for one query alone.
 
-The calls of a case often have one size in all arrays, which the case does not ask for.
+The calls of a case often have few sizes, or one, which the case does not ask for.
 Axes that have the same size in every call belong together: the rows of the keys and
 those of the values, say. They are resized together, with entries that a call has.
 """
@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 EACH = 2  # calls of a case that are given each other size
-SIZES = 3  # other sizes of an axis, at most
+SIZES = 3  # other sizes of an axis, at most: small ones, and the largest
 SEED = 4759
 Axis = tuple[int, int]  # of which argument, and which of its axes
 Call = tuple[Any, ...]
@@ -31,21 +31,31 @@ def sizes_by_axis(calls: Sequence[Call]) -> dict[tuple[int, ...], list[Axis]]:
     return {sizes: axes for sizes, axes in together.items() if len(set(sizes)) > 1}
 
 
-def resized(calls: Sequence[Call], known: Sequence[Call]) -> Iterator[Call]:
-    """Yield some calls with a size that they have in common replaced by others.
+def resized(
+    calls: Sequence[Call], known: Sequence[Call], twice: bool = True
+) -> Iterator[Call]:
+    """Yield some calls with a size that none of them has.
 
     Args:
         calls: of a case.
         known: all calls, of which calls are some.
+        twice: whether an entry may be given twice; else sizes are smaller ones.
     """
     rng = np.random.default_rng(SEED)
     for sizes, axes in sizes_by_axis(known).items():
-        of_case = {call[axes[0][0]].shape[axes[0][1]] for call in calls}
-        if len(of_case) != 1:
-            continue
-        for size in sorted(set(sizes) - of_case)[:SIZES]:
+        of_case = {size_of(call, axes) for call in calls}
+        others = sorted(set(sizes) - of_case)
+        if not twice:
+            others = [size for size in others if size < min(of_case)]
+        for size in [*others[: SIZES - 1], *others[SIZES - 1 :][-1:]]:
             for at in rng.permutation(len(calls))[:EACH]:
-                yield _with_size(calls[at], axes, size, rng)
+                yield with_size(calls[at], axes, size, rng)
+
+
+def size_of(call: Call, axes: Sequence[Axis]) -> int:
+    """Return the size of some axes of a call that belong together."""
+    argument, axis = axes[0]
+    return int(call[argument].shape[axis])
 
 
 def _axes(call: Call) -> dict[Axis, int]:
@@ -58,7 +68,7 @@ def _axes(call: Call) -> dict[Axis, int]:
     }
 
 
-def _with_size(
+def with_size(
     call: Call, axes: Sequence[Axis], size: int, rng: np.random.Generator
 ) -> Call:
     """Return a call with some entries along its axes, in their order; some twice."""

@@ -474,7 +474,14 @@ def _all_grew(before: Iterable[Any], after: Iterable[Any], factor: float) -> boo
 
 
 def _of_argument(k: int, holds: Callable[[Any], bool], call: Call) -> bool:
-    return holds(call[k])
+    """Return whether a call's argument satisfies a condition; False without the entry.
+
+    A vector of two entries has no `x[2]`, of which a condition may be.
+    """
+    try:
+        return holds(call[k])
+    except IndexError:
+        return False
 
 
 def _neutral_in(k: int, neutral: Neutral, call: Call) -> list[Call]:

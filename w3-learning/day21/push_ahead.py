@@ -49,6 +49,15 @@ def _(rng):
     yield scene(rng, 0.3, 2, 3)
     yield scene(rng, 0.3, 2, 1)
     yield scene(rng, 0.063, 2, 3)
+    size = float(rng.choice([0.2, 0.5, 3.0]))  # the same scene with other bodies
+    obs, actions, dt, steps, reach = scene(rng, float(rng.choice([0.3, 0.063])), 2, 3)
+    yield (
+        (size * obs).round(5),
+        (size * actions).round(5),
+        dt,
+        steps,
+        round(size * reach, 4),
+    )
 
 
 def pushed(obs, actions, dt, steps, reach, part):
