@@ -3,11 +3,14 @@
 from dataclasses import replace
 
 import inprocess
+import numpy as np
 import pytest
 
+from labkit.check import tasks
 from labkit.judge import repair
 from labkit.lesson.day import find_day
 from labkit.lesson.lab_module import definition
+from labkit.sandbox.sandbox import Sandbox
 
 pytestmark = pytest.mark.kit
 
@@ -94,8 +97,6 @@ def test_helpers_are_changed_and_functions_that_are_judged_are_not():
 
 
 def test_each_change_is_made_by_its_number_and_ends():
-    import numpy as np
-
     changes = repair.changes_of(HELPED, "asked", {"asked"})
     space = {}
     exec(HELPED + changes.code, space)
@@ -115,3 +116,26 @@ def test_each_change_is_made_by_its_number_and_ends():
 @pytest.mark.parametrize("source", ["", "def asked(:", "@cache\ndef asked(x): pass"])
 def test_a_function_without_a_text_has_no_changes(source):
     assert repair.changes_of(source, "asked", set()) is None
+
+
+# Each joint's velocity alone, so that products of two are lost.
+HANGS = """
+def bias_torque(J_space, G, qd, g):
+    n = len(qd)
+    turns = 30_000
+    for _ in range(turns):  # turns ** 2 takes minutes
+        pass
+    tau = inverse_dynamics(J_space, G, np.zeros(n), np.zeros(n), g)
+    for i in range(n):
+        one = qd * (np.arange(n) == i)
+        tau = tau + inverse_dynamics(J_space, G, one, np.zeros(n), np.zeros(3))
+    return tau
+"""
+
+
+def test_a_change_that_hangs_costs_the_line_and_not_the_conditions(tmp_path):
+    """The sandbox ends then, and the conditions are tried in another one."""
+    day, script = written(tmp_path, 4, "bias_torque", HANGS)
+    with Sandbox() as sandbox:
+        (result,) = tasks.check_tasks(day, script, sandbox, "4.6", seed=1)
+    assert "whenever only one entry of `qd` is not 0" in result.verdict.message

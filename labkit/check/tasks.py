@@ -191,31 +191,29 @@ class _Check:
         return replace(result, verdict=verdict)
 
     def _with_experiments(self, task: Task, verdict: Verdict, added: str) -> Verdict:
-        """Return a verdict with the cases, or arguments, for which it is right."""
+        """Return a verdict with the line that is wrong, or where the rest is right."""
         all_asked = self.asked[task.id]
         asked = next(one for one in all_asked if one.function == verdict.function)
-        says = self._repaired(asked, added) or self._where_right(asked, verdict, added)
+        judged = {name for one in self.day.tasks for name in one.functions}
+        changes = changes_of(self.source, asked.function, judged)
+        with quiet():
+            below = added + (changes.code if changes else "")
+            with contextlib.closing(self._session(asked, below)) as session:
+                says = changes and repaired(asked, self.source, changes, session)
+                hung = not session.alive
+                if not says and not hung:
+                    says = self._where_right(asked, verdict, session)
+            if hung:  # in a change
+                with contextlib.closing(self._session(asked, added)) as session:
+                    says = self._where_right(asked, verdict, session)
         return replace(verdict, message=f"{verdict.message} {says}".strip())
 
-    def _repaired(self, asked: Asked, added: str) -> str:
-        """Return which line, changed once, makes a wrong function right; or ""."""
-        judged = {name for task in self.day.tasks for name in task.functions}
-        changes = changes_of(self.source, asked.function, judged)
-        if changes is None:
-            return ""
-        with quiet(), contextlib.suppress(LoadError):  # a change need be no Python
-            session = self._session(asked, f"{added}\n{changes.code}")
-            with contextlib.closing(session):
-                return repaired(asked, self.source, changes, session)
-        return ""
-
-    def _where_right(self, asked: Asked, verdict: Verdict, added: str) -> str:
+    def _where_right(self, asked: Asked, verdict: Verdict, session: Session) -> str:
         """Return in which cases, or for which arguments, a function is right; or ""."""
         names = arguments(self.source, asked.function)
-        with quiet(), contextlib.closing(self._session(asked, added)) as session:
-            return in_cases(asked, session.ask) or right_when(
-                asked, verdict.wrong_calls, names, session.ask
-            )
+        return in_cases(asked, session.ask) or right_when(
+            asked, verdict.wrong_calls, names, session.ask
+        )
 
     def _session(self, asked: Asked, added: str) -> Session:
         """Return the student's file with some code below it, to be asked more."""

@@ -43,23 +43,33 @@ PARTS = {
     "exchanged": "the order of the variables", "function": "which function is called",
     "condition": "the condition", "entries": "the order of the entries",
 }  # fmt: skip
-BELOW = f"""
-{AT} = _robo47_steps = 0
+# Below the student's file; the changed functions have names of their own.
+BELOW = """
+_robo47_space = dict(globals())
+try:
+    exec({text!r}, _robo47_space)
+except Exception:  # one of the changes is no Python
+    pass
+globals().update(_robo47_space.get("_robo47_changed", {{}}))
+"""
+CHOICE = """
+_robo47_at = _robo47_steps = 0
 def _robo47_step():
     global _robo47_steps
     _robo47_steps += 1
-    if _robo47_steps > {STEPS}:
+    if _robo47_steps > {most}:
         raise RuntimeError("a loop does not end")
     return True
 def _robo47_change(k):
     def call(*args):
-        global {AT}, _robo47_steps
-        {AT}, _robo47_steps = k, 0
-        return {{0}}(*args)
-    call.__wrapped__ = {{0}}
+        global _robo47_at, _robo47_steps
+        _robo47_at, _robo47_steps = k, 0
+        return {function}(*args)
+    call.__wrapped__ = {function}
     return call
-for _robo47_k in range({{1}} + 1):
-    globals()["{CALLED}" + str(_robo47_k)] = _robo47_change(_robo47_k)
+_robo47_changed = {{
+    "_robo47_changed_" + str(k): _robo47_change(k) for k in range({n} + 1)
+}}
 """
 
 
@@ -97,7 +107,8 @@ def changes_of(source: str, function: str, others: Set[str]) -> Changes | None:
         _limit(body.function)
     functions = [ast.fix_missing_locations(body.function) for body in bodies]
     text = "\n".join(map(ast.unparse, functions))
-    return Changes(some, text + BELOW.format(function, len(some)))
+    text += CHOICE.format(function=function, n=len(some), most=STEPS)
+    return Changes(some, BELOW.format(text=text))
 
 
 def _defined(source: str) -> dict[str, ast.FunctionDef]:
