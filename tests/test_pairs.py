@@ -209,7 +209,7 @@ def test_of_two_mistakes_only_what_the_function_does_is_told():
         return np.where(np.isnan(heights), 0.0, np.where(below, -1.0, found))
 
     says = told(14, "14.6", reward=reward)
-    assert "Your code has two mistakes. First, it " in says
+    assert "Two mistakes together explain your result. First, your code " in says
     assert " Second, it returns 0 for a height of NaN" in says
     assert "because the simulation failed" not in says
 

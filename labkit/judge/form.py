@@ -63,6 +63,11 @@ def is_of_its_form(
     return _stands(mutant.text, own) or _apart(mine, changed) < _apart(mine, right)
 
 
+def is_like(own: ast.FunctionDef, right: ast.FunctionDef) -> bool:
+    """Return whether half of the parts of two functions are the same."""
+    return _alike(parts_of(own), parts_of(right)) >= LIKE
+
+
 def _stands(text: str, own: ast.FunctionDef) -> bool:
     """Return whether a changed expression, and no mere name, stands in a function."""
     return bool(text) and not text.isidentifier() and text in ast.unparse(own)

@@ -97,10 +97,9 @@ def both_told(first: str, second: str) -> str:
     for the next pose" is no "it".
     """
     if first.startswith(YOUR_CODE) and ". " not in first:
-        own = f"^{YOUR_CODE}(?!for )"
-        first, second = (re.sub(own, "it ", one) for one in (first, second))
+        second = re.sub(f"^{YOUR_CODE}(?!for )", "it ", second)
     says = as_sentence(f"First, {first}"), as_sentence(f"Second, {second}")
-    return f"Your code has two mistakes. {' '.join(says)}"
+    return f"Two mistakes together explain your result. {' '.join(says)}"
 
 
 def as_sentence(says: str) -> str:

@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import Any
 
 from labkit.judge.answers import SYMBOLS, capitalised, listed
-from labkit.judge.form import is_of_its_form
+from labkit.judge.form import is_like, is_of_its_form
 from labkit.judge.hypothesis import evidence
 from labkit.judge.mistake import REDONE, Finding
 from labkit.judge.mutant import Mutant
@@ -114,10 +114,11 @@ def _sentences(m: Any, mutant: Mutant) -> str:
         verb = "expression is" if len(texts) == 1 else "expressions are"
         does = what(mutant, given=_arguments(m, mutant)).removesuffix(ONCE)
         return f"Your code {does}. The wrong {verb} {listed(texts)}."
-    if tells(mutant):
+    own = _own_function(m, mutant)
+    if tells(mutant) and (own is None or is_like(own.own, own.reference)):
         return f"{capitalised(told(m, mutant))}."
-    # Another algorithm may have no such bracket or number, although its output is the
-    # same.
+    # Another algorithm may have no such sign, bracket or number, although its output is
+    # the same.
     says = told(m, mutant).removeprefix("your code ")
     which = "whose code" if says.startswith("for ") else "that"
     return f"{AS_A_SOLUTION} {which} {says}."

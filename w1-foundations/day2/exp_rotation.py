@@ -43,8 +43,8 @@ def rodrigues(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """turns-backwards: your code rotates in the wrong direction, because the sine term
-      has the wrong sign
+    """turns-backwards: your code rotates in the opposite direction, because the sine
+      term has the wrong sign or the matrix is transposed
     minus-square: your code subtracts the K^2 term instead of adding it, so the matrix
       is not orthonormal
     square-missing: your code omits the K^2 term. Without this term, the matrix is

@@ -15,9 +15,9 @@ def _(rng):
 
 @row.wrongs
 def _(h):
-    """undamped-limit: your code returns 2 / h, which is the stability limit of a spring
-      without damping. With critical damping, the limit is lower, because the damping
-      torque uses the velocity at the start of the step
+    """undamped-limit: your code returns 2 / h. That is the stability limit of a spring
+      without damping, and of a step that moves q with the old velocity. With critical
+      damping and the new velocity, the limit is lower
     one-over-h: your code returns 1 / h. Return the omega at which the matrix of the
       step has an eigenvalue of -1
     larger-root: your code returns the absolute value of the negative root of the

@@ -83,9 +83,8 @@ def _(start, end, T):
       accelerations in `start` and `end` instead
     rest-to-rest: your code sets the velocities and the accelerations at both ends to 0.
       Use the values in `start` and `end` instead
-    two-forgotten: in the row for the initial acceleration, your matrix contains 1 in
-      the column for t^2. This entry should be 2, because the second derivative of t^2
-      is 2
+    two-forgotten: your coefficient of t^2 is the initial acceleration. It should be
+      half of it, because the second derivative of t^2 is 2
     conditions-mixed-up: your right-hand side alternates between `start` and `end`, but
       the rows of your matrix do not. Use the same order in the matrix and in the
       right-hand side
