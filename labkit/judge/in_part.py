@@ -156,7 +156,7 @@ def in_some_calls(m: Matcher) -> Finding | None:
     others = len(wrong) - n
     rest = "other wrong call" if others == 1 else f"other {others} wrong calls"
     says = (
-        f"One mistake explains the result in {n} of the {len(wrong)} wrong calls: "
+        f"One mistake would explain the result in {n} of the {len(wrong)} wrong calls: "
         f"{as_sentence(one.says)} In the {rest}, the reference solution with this "
         "mistake gives a different result."
     )

@@ -43,6 +43,13 @@ def _(model, q):
     return fk(model, q, PATH[:4]) @ link(model, "link4")
 
 
+@row.wrong
+def last_step_on_the_left_without_joint(model, q):
+    """your code puts the transform of link4 on the left of the product and omits the
+    rotation of joint4. Put both on the right, the rotation last"""
+    return link(model, "link4") @ fk(model, q, PATH[:4])
+
+
 @row.wrong("pose-off")  # From link3's inverse: an idea without a name.
 def _(model, q):
     step = link(model, "link4") @ turn(model, q, "joint4")

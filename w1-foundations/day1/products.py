@@ -75,7 +75,7 @@ def on_each_other(model, q, path=PATH):
         "last-step-in-the-world": pose(
             before[:3, :3] @ last[:3, :3], before[:3, 3] + last[:3, 3]
         ),
-        "last-step-on-the-left": last @ before,
+        "last-step-on-the-left": last @ turn(model, q, path[-1][1]) @ before,
         "local-taken-for-world": last,
         "offsets-summed": lambda: pose(
             R, sum(model.body(name).pos for name, _ in path)
