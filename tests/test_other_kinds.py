@@ -40,6 +40,16 @@ def told(kind, answers, given):
     return judged_replies(ask, replies)
 
 
+def test_the_few_entries_that_are_right_are_named():
+    names = ("the mass", "x", "y", "z")
+    right = NUMBERS.uniform(1.0, 2.0, (6, 4))
+    wrong = right + [0.0, 0.1, 0.2, 0.3] * NUMBERS.uniform(1.0, 2.0, (6, 4))
+    kind = Vector((4,), names=names)
+    assert "Only the mass is correct" in judged(asked(kind, right), wrong).message
+    unnamed = judged(asked(Vector((4,)), right), wrong)
+    assert "Only" not in unnamed.message
+
+
 class TestWeights:
     WEIGHTS = np.array([[1.0, 1e6], [1e-6, 1.0]])
     RIGHT = WEIGHTS * NUMBERS.uniform(1.0, 2.0, (6, 2, 2))

@@ -306,10 +306,18 @@ class Vector(Kind):
             error = say_error(self.apart(S, T))
             return Finding("few-entries-off", f"{says} {error}")
         if not 0 < off.sum() <= (max(1, len(off) // 3) if same else 1):
-            return Finding("off", say_error(self.apart(S, T)))
+            right = np.flatnonzero(~off & T.any(axis=0))
+            only = _only(_entries(self.names, counted, right)) if len(right) else ""
+            says = only if same and self.names and len(S) > 1 else ""
+            return Finding("off", f"{says} {say_error(self.apart(S, T))}".strip())
         where = _entries(self.names, counted, np.flatnonzero(off))
         says = f"All entries are correct except {where}."
         return Finding("few-entries-off", f"{says} {say_error(self.apart(S, T))}")
+
+
+def _only(names: str) -> str:
+    """Return that some entries, and no others, are correct."""
+    return f"Only {names} {'are' if ' and ' in names else 'is'} correct."
 
 
 def _others_right(kind: Kind, wrong: Array, S: Array, T: Array) -> bool:
