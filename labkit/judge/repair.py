@@ -26,7 +26,9 @@ from labkit.judge.statements import Block, Lines
 
 MOST = 800  # changes that are tried
 AT_ONCE = 50  # of them between two looks at the time
-SECONDS = 0.4  # of the processor, after which no more are tried
+SECONDS = 0.4  # of the processor, after which no more are tried at one call
+MORE = 3  # times that, after which none is tried at all
+FEW = 6  # wrong answers that have to become right before the others are asked
 CALL = 1.0  # second for a call, after which a change hangs
 SCREENED = 24  # changes that are tried at all calls
 FRESH = 60  # calls at which one is confirmed
@@ -230,48 +232,63 @@ def repaired(asked: Asked, source: str, changes: Changes, asker: Asker) -> str:
     wrong = [one for one in known if verdict(asked.ask, one) not in (RIGHT, NONE)]
     if len(wrong) < LEAST:
         return ""
-    holding = _screened(asked.ask, wrong[len(wrong) // 2], changes, asker)
+    trial = _Trial(asked.ask, changes, asker, asker.used()[0])
     calls = [one.question for one in known]
-    holding = [k for k in holding if _holds(asked.ask, changes, k, calls, asker)]
+    holding = trial.screened(wrong[len(wrong) // 2])
+    holding = trial.that_hold(holding, [one.question for one in wrong[:FEW]])
+    holding = trial.that_hold(holding, calls)
     if not holding:
         return ""
     fresh = islice(drawn(asked.ask, [one.args for one in calls]), FRESH)
     more = [replace(calls[0], args=call) for call in fresh]
-    holding = [k for k in holding if _holds(asked.ask, changes, k, more, asker)]
+    holding = trial.that_hold(holding, more)
     mutants = [changes.mutants[k - 1] for k in holding]
     return _told(mutants, source, len(calls) + len(more))
 
 
-def _screened(row: Ask, wrong: Exchange, changes: Changes, asker: Asker) -> list[int]:
-    """Return the numbers of changes that make one wrong answer right."""
-    found: list[int] = []
-    right = right_answers(row, [wrong])
-    (unchanged,) = asker.ask([changes.ask(0, wrong.question)], CALL)
-    if _gives(row, wrong.question, unchanged, right):
-        return found  # it is another function that was asked
-    numbers = range(1, len(changes.mutants) + 1)
-    for at in range(0, len(numbers), AT_ONCE):
-        some = numbers[at : at + AT_ONCE]
-        came = asker.ask([changes.ask(k, wrong.question) for k in some], CALL)
-        if len(came) < len(some) or came[-1].kind == "stopped":
-            break
-        pairs = zip(some, came, strict=True)
-        found += [k for k, one in pairs if _gives(row, wrong.question, one, right)]
-        if len(found) >= SCREENED or asker.used()[0] > SECONDS:
-            break
-    return found[:SCREENED]
+class _Trial(NamedTuple):
+    """Changes that are tried, within a limit of the processor's time."""
 
+    row: Ask
+    changes: Changes
+    asker: Asker
+    began: float  # s
 
-def _holds(
-    row: Ask, changes: Changes, k: int, calls: Sequence[Question], asker: Asker
-) -> bool:
-    """Return whether a change makes every one of some answers right."""
-    came = asker.ask([changes.ask(k, one) for one in calls], CALL)
-    return all(_is_right(row, call, one) for call, one in zip(calls, came, strict=True))
+    def over(self, times: float = 1.0) -> bool:
+        """Return whether the time is over, or some times of it."""
+        return self.asker.used()[0] - self.began > times * SECONDS
+
+    def screened(self, wrong: Exchange) -> list[int]:
+        """Return the numbers of changes that make one wrong answer right."""
+        question, found = wrong.question, list[int]()
+        right = right_answers(self.row, [wrong])
+        (unchanged,) = self._ask([0], question)
+        if _gives(self.row, question, unchanged, right):
+            return found  # it is another function that was asked
+        numbers = range(1, len(self.changes.mutants) + 1)
+        for at in range(0, len(numbers), AT_ONCE):
+            some = numbers[at : at + AT_ONCE]
+            pairs = zip(some, self._ask(some, question), strict=False)
+            found += [k for k, it in pairs if _gives(self.row, question, it, right)]
+            if len(found) >= SCREENED or self.over():
+                break
+        return found[:SCREENED]
+
+    def that_hold(self, some: Sequence[int], calls: Sequence[Question]) -> list[int]:
+        """Return those of some changes that make every one of some answers right."""
+        return [k for k in some if not self.over(MORE) and self._holds(k, calls)]
+
+    def _holds(self, k: int, calls: Sequence[Question]) -> bool:
+        came = self.asker.ask([self.changes.ask(k, one) for one in calls], CALL)
+        pairs = zip(calls, came, strict=True)
+        return all(_is_right(self.row, call, reply) for call, reply in pairs)
+
+    def _ask(self, some: Sequence[int], question: Question) -> Sequence[Reply]:
+        return self.asker.ask([self.changes.ask(k, question) for k in some], CALL)
 
 
 def _gives(row: Ask, question: Question, reply: Reply, right: Parts) -> bool:
-    """Return whether a reply is a right answer, or may be one with many of them."""
+    """Return whether a reply is the right answer."""
     if reply.kind:
         return False
     S = read([Exchange(question, reply)], row)
@@ -304,6 +321,5 @@ def _line(number: int, text: str) -> str:
     """Return a line by its number, and as it is written if that is short."""
     code = text.partition("  # ")[0].strip()
     whole = all(code.count(one) == code.count(two) for one, two in ("()", "[]"))
-    return (
-        f"line {number}, `{code}`," if whole and len(code) <= LONG else f"line {number}"
-    )
+    short = whole and len(code) <= LONG
+    return f"line {number}, `{code}`," if short else f"line {number}"
