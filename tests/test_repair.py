@@ -113,6 +113,22 @@ def test_each_change_is_made_by_its_number_and_ends():
     assert any(np.array_equal(answers[k], [3.0, 0.0]) for k in signs)  # x - 1
 
 
+QUOTED = """
+def asked(x):
+    if x < 0:
+        raise ValueError(f"it's \\"{x:{'>'}9}\\"\\n")
+    return x + 1
+"""
+
+
+def test_a_text_with_quotes_in_quotes_is_changed_or_is_not_but_never_stops():
+    changes = repair.changes_of(QUOTED, "asked", {"asked"})
+    if changes is not None:
+        space = {}
+        exec(QUOTED + changes.code, space)
+        assert space[f"{repair.CALLED}0"](1.0) == 2.0
+
+
 @pytest.mark.parametrize("source", ["", "def asked(:", "@cache\ndef asked(x): pass"])
 def test_a_function_without_a_text_has_no_changes(source):
     assert repair.changes_of(source, "asked", set()) is None

@@ -95,9 +95,14 @@ def changes_of(source: str, function: str, others: Set[str]) -> Changes | None:
         others: functions that are judged themselves.
     """
     try:
-        defined = _defined(source)
-    except (SyntaxError, ValueError):
+        return _changes_of(_defined(source), function, others)
+    except (SyntaxError, ValueError, RecursionError):  # no text, or none to be written
         return None
+
+
+def _changes_of(
+    defined: dict[str, ast.FunctionDef], function: str, others: Set[str]
+) -> Changes | None:
     bodies = [Body(one, {}) for one in _reached(defined, function, others)]
     near = sorted(chain.from_iterable(b.near for b in bodies), key=lambda m: m.rank)
     far = chain.from_iterable(chain.from_iterable(b.far()) for b in bodies)
