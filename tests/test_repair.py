@@ -155,3 +155,22 @@ def test_a_change_that_hangs_costs_the_line_and_not_the_conditions(tmp_path):
     with Sandbox() as sandbox:
         (result,) = tasks.check_tasks(day, script, sandbox, "4.6", seed=1)
     assert "whenever only one entry of `qd` is not 0" in result.verdict.message
+
+
+LOOPS = """
+def asked(a):
+    total = 0.0
+    for i, (x, y) in enumerate(zip(a, a[1:])):
+        if x > y:
+            continue
+        total = total + max(abs(z - i) for z in (x, y) if z > 0)
+    return next((t for t in [total] if t > 0), 0.0)
+"""
+
+
+def test_targets_and_lines_that_leave_a_loop_stay_as_they_are():
+    changes = repair.changes_of(LOOPS, "asked", {"asked"})
+    space = {}
+    exec(LOOPS + changes.code, space)
+    a = np.array([1.0, 2.0, 3.0])
+    assert space[f"{repair.CALLED}0"](a) == space["asked"](a)

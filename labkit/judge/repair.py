@@ -96,7 +96,12 @@ def changes_of(source: str, function: str, others: Set[str]) -> Changes | None:
     """
     try:
         return _changes_of(_defined(source), function, others)
-    except (SyntaxError, ValueError, RecursionError):  # no text, or none to be written
+    except (
+        SyntaxError,
+        ValueError,
+        OverflowError,
+        RecursionError,
+    ):  # no text, or none to be written
         return None
 
 
@@ -106,7 +111,7 @@ def _changes_of(
     bodies = [Body(one, {}) for one in _reached(defined, function, others)]
     near = sorted(chain.from_iterable(b.near for b in bodies), key=lambda m: m.rank)
     far = chain.from_iterable(chain.from_iterable(b.far()) for b in bodies)
-    some = list(islice(filter(is_alone, chain(near, far)), MOST))
+    some = list(islice(filter(_can_be_chosen, chain(near, far)), MOST))
     if not some:
         return None
     _put(some)
@@ -138,6 +143,28 @@ def _reached(
         nodes = ast.walk(defined[name])
         left += [node.id for node in nodes if isinstance(node, ast.Name)]
     return list(found.values())
+
+
+def _can_be_chosen(mutant: Mutant) -> bool:
+    """Return whether a change may stand behind a condition: a target may not."""
+    for at, new in mutant.edits:
+        if isinstance(at, Block):
+            if _leaves(new) > _leaves(at.before):
+                return False
+        elif isinstance(getattr(at.node, "ctx", None), ast.Store):
+            return False
+    return is_alone(mutant)
+
+
+def _leaves(lines: Lines) -> int:
+    """Return how often lines leave a loop that is not among them."""
+    left, found = [*lines], 0
+    while left:
+        line = left.pop()
+        found += isinstance(line, ast.Break | ast.Continue)
+        if not isinstance(line, ast.For | ast.While):
+            left += [x for x in ast.iter_child_nodes(line) if isinstance(x, ast.stmt)]
+    return found
 
 
 def _put(some: Sequence[Mutant]) -> None:
