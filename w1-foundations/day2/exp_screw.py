@@ -143,16 +143,18 @@ def _(S, theta):
       translation multiplied by R. Omit this factor
     travel-over-theta: your rotation is correct, but your translation is the correct
       translation divided by theta. Omit this division
-    moment-used-as-point: your code uses v as a point on the axis. The vector v is a
-      velocity. The point on the axis nearest to the origin is omega x v
+    moment-used-as-point: your translation is v - R v, as if v were a point on the axis.
+      The vector v is a velocity. The point on the axis nearest to the origin is omega x
+      v
     pitch-forgotten: your code omits the translation along the axis if omega is not 0.
       This translation is needed for a screw with a nonzero pitch
     pitch-without-theta: your code multiplies the translation along the axis by theta
       only if omega is 0. Always multiply this translation by theta
     hinges-only: your code omits the translation along the axis for every screw. This
       translation is 0 only for a pure rotation
-    sign-of-the-point: your rotation is correct, but your point on the axis has the
-      wrong sign. The point on the axis nearest to the origin is omega x v
+    sign-of-the-point: your rotation is correct, but the part of your translation
+      perpendicular to the axis has the wrong sign. The point on the axis nearest to the
+      origin is omega x v
     slide-forgotten: your translation is 0 for a screw with omega = 0. Such a screw
       represents a pure translation, so the translation should be theta v
     slide-without-theta: your translation is v for a screw with omega = 0. The
