@@ -212,9 +212,9 @@ def from_column(R, k):
 for k, (which, missing) in enumerate((("first", "x"), ("second", "y"), ("last", "z"))):
     row.wrong(
         "fixed-column",
-        f"for angles near pi, your code always takes the axis from the {which} column "
-        f"of the matrix axis axis^T. This column is 0 if the axis has no {missing} "
-        "component. Use the column with the largest norm instead",
+        f"for angles near pi, your result is wrong if the axis has no {missing} "
+        f"component, because the {which} column of the matrix axis axis^T is then 0. "
+        "Use the column with the largest norm instead",
         hidden="its half turn is about y" if missing == "y" else "",
     )(lambda R, k=k: from_column(R, k))
 

@@ -59,8 +59,9 @@ def _(screws, q):
       screw by the motions of all joints before it
     last-joint-only: your code transforms each screw only by the motion of the joint
       directly before it. Use the motions of all joints before it
-    product-reversed: your code multiplies the exponentials in reverse order. The
-      exponential of joint 1 should be the leftmost factor
+    product-reversed: your code transforms each screw by the motions of the joints
+      before it in the reverse order. The exponential of joint 1 should be the leftmost
+      factor
     one-joint-late: your code transforms each screw without the motion of the joint
       directly before it. Use the motions of all joints before it
     moved-by-the-next: your code also transforms each screw by the motion of the joint
