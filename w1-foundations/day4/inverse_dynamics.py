@@ -101,7 +101,7 @@ def _(J, G, qd, qdd, g):
       instead, because wrenches transform with the transpose of ad(V)
     velocity-product-forgotten: your wrenches omit the term -ad(V)^T G V. Add this term
       to G A, because G changes when the link moves
-    velocity-of-the-link-before: the term -ad(V)^T G V of each wrench contains the
+    velocity-of-the-link-before: your term -ad(V)^T G V of each wrench contains the
       velocity of the previous link. Use the velocity of the link itself, which includes
       the motion of its own joint
     summed-from-the-base: for each joint, your code sums the wrenches on the links from
@@ -118,7 +118,7 @@ def _(J, G, qd, qdd, g):
     accelerations-not-added: your code omits the acceleration of the previous link from
       each link's acceleration. Add this acceleration, because the earlier joints also
       move the link
-    nothing-added-outwards: the V and A of each link contain only the motion of its own
+    nothing-added-outwards: your V and A of each link contain only the motion of its own
       joint. Accumulate both along the arm
     gravity-at-every-link: your code adds gravity at the base and again at every link.
       Add gravity only at the base, because the recursion propagates this acceleration
