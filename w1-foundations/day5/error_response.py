@@ -122,9 +122,9 @@ def _(t, omega, zeta):
     both-halves: for zeta above 1, your error is the mean of the two exponentials, so it
       omits the sinh term. Choose the two weights so that the derivative of the error is
       0 at t = 0
-    weights-swapped: for zeta above 1, either the weights of the two exponentials are
-      swapped, or the sinh term has the wrong sign. The slow exponential should have the
-      larger weight
+    weights-swapped: for zeta above 1, your weights of the two exponentials are swapped,
+      or your sinh term has the wrong sign. The slow exponential should have the larger
+      weight
     weights-summed: for zeta above 1, the derivative of your error at t = 0 is not 0. If
       your formula contains two exponentials, replace the plus sign with a minus sign in
       both the numerator and the denominator. If your formula contains cosh and sinh,
