@@ -45,8 +45,9 @@ def cut(J, G, armature):
     """columns-not-cut: each link contributes to all entries of your M. The entries of
       the joints after the link should not contain the link, because these joints do not
       move the link
-    own-joint-left-out: the entries of each joint in your M omit the joint's own link.
-      Include this link, because the joint also moves its own link
+    own-joint-left-out: each link in your M contributes only to the entries of earlier
+      joints. Include the entries of its own joint, because this joint also moves the
+      link
     next-joint-too: each link in your M also contributes to the entries of the next
       joint. Omit this contribution, because the next joint does not move the link
     columns-cut-on-the-wrong-side: each link in your M contributes to the entries of its
