@@ -37,16 +37,17 @@ def small_angle_formula(theta, below=0.1):
 def _(theta):
     """turns-backwards: your code rotates in the wrong direction. A positive angle
       should rotate the x axis towards the y axis
-    sin-and-cos-swapped: your code swaps the sine and the cosine, so at `theta` = 0 the
-      matrix already rotates by 90 degrees
+    sin-and-cos-swapped: the sine and the cosine are swapped in your matrix, so at
+      `theta` = 0 the matrix already rotates by 90 degrees
     minus-missing: neither of your sines has a minus sign, so the matrix is not
       orthonormal. Exactly one of the two sines should have a minus sign
     minus-twice: both of your sines have a minus sign, so the matrix is not orthonormal.
       Exactly one of the two sines should have a minus sign
-    reflection: your code negates a cosine instead of a sine, so the matrix is a
+    reflection: a cosine in your matrix is negated instead of a sine, so the matrix is a
       reflection (det R = -1)
-    small-angle-formula: your code uses the angle instead of its sine and 1 instead of
-      its cosine if the angle is small. Compute the sine and the cosine for every angle
+    small-angle-formula: if the angle is small, your matrix contains the angle instead
+      of its sine and 1 instead of its cosine. Use the sine and the cosine for every
+      angle
     z-lost: the last diagonal entry of your matrix is 0, so the matrix sets the z
       component of every point to 0. This entry should be 1
     """

@@ -131,8 +131,8 @@ for k in range(1, 8):
 def _(model, q, path=PATH):
     """home-whatever-q: your code always returns the pose for the ready configuration.
       Use the joint angles in `q` instead
-    ready-subtracted: your code subtracts the angles of the ready configuration from
-      `q`. Each joint should rotate by its entry in `q`
+    ready-subtracted: your pose belongs to `q` minus the angles of the ready
+      configuration. Each joint should rotate by its entry in `q`
     """
     angles = {
         "home-whatever-q": READY_Q,

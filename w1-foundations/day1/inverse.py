@@ -44,25 +44,25 @@ def _(rng):
 @row.wrongs
 def _(T):
     """unchanged: your code returns T unchanged
-    T-transposed: your code transposes the whole 4x4 matrix, which also moves the
-      translation to the last row. Transpose only R, and compute the translation
+    T-transposed: your result is the transpose of the whole 4x4 matrix, so the
+      translation is in the last row. Transpose only R, and compute the translation
       separately
     t-only-negated: your rotation is correct, but your translation is -t. The
       translation of the inverse is expressed in the rotated frame, so rotate -t into
       that frame
-    t-turned-forwards: your rotation is correct, but your code multiplies -t by R.
-      Multiply -t by the inverse of R instead
+    t-turned-forwards: your rotation is correct, but your translation is -R t. Multiply
+      -t by the inverse of R instead
     R-kept: your translation is correct, but your rotation is R instead of the inverse
       of R
-    R-kept-t-negated: your code keeps R and only negates t. Use the inverse of R as the
-      rotation, and multiply -t by this inverse
-    R-kept-t-turned-forwards: your code uses R instead of its inverse, both in the
-      rotation and in the translation
-    all-signs: your code negates every entry of T. Use the inverse of R as the rotation
-      instead, and compute the translation from this inverse and t
-    minus-R: your code only negates R and t. The matrix -R is not a rotation matrix,
-      because its determinant is -1. Use the inverse of R as the rotation instead, and
+    R-kept-t-negated: your rotation is R, and your translation is only -t. Use the
+      inverse of R as the rotation, and multiply -t by this inverse
+    R-kept-t-turned-forwards: your rotation is R, and your translation is -R t. Both
+      should contain the inverse of R instead
+    all-signs: your result is -T. Use the inverse of R as the rotation instead, and
       compute the translation from this inverse and t
+    minus-R: your rotation is -R, and your translation is -t. The matrix -R is not a
+      rotation matrix, because its determinant is -1. Use the inverse of R as the
+      rotation instead, and compute the translation from this inverse and t
     """
     R, t = split(T)
     return {

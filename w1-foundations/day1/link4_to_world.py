@@ -58,6 +58,6 @@ def _(model, q):
 
 @row.wrong
 def starts_late(model, q):
-    """your code starts the chain at link3. The chain should start at link0, because the
-    file gives the `pos` and `quat` of link3 relative to link2"""
+    """your result is the pose of link4 relative to link2. Start the chain at link0
+    instead, because the result should be relative to the world"""
     return fk(model, q, PATH[3:5])

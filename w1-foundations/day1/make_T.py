@@ -21,13 +21,13 @@ def _(rng):
 
 @row.wrongs(hidden={"type-of-R": "the lab's rotations hold no whole numbers alone"})
 def _(R, t):
-    """move-then-turn: your code multiplies t by R. Use t unchanged, because a pose
-      first rotates a point and then translates it by t
-    t-turned-back: your code multiplies t by the transpose of R. Use t unchanged,
-      because t is already expressed in the frame to which T maps
-    type-of-R: your code creates an array with the dtype of R. If R has an integer
-      dtype, as `np.eye(3, dtype=int)` does, NumPy truncates the entries of t to whole
-      numbers. Create an array of floats instead
+    """move-then-turn: your translation is R t. The translation should be t, because a
+      pose first rotates a point and then translates it by t
+    t-turned-back: your translation is R^T t. The translation should be t, because t is
+      already expressed in the frame to which T maps
+    type-of-R: your array has the dtype of R. If R has an integer dtype, as `np.eye(3,
+      dtype=int)` does, NumPy truncates the entries of t to whole numbers. Create an
+      array of floats instead
     """
     whole = np.array_equal(R, np.round(R))
     return {

@@ -17,8 +17,8 @@ def in_order(model, q, path=PATH):
     """joint-before-link: your code applies each joint's transform before the link's
       transform. Apply the link's transform first, because the joint rotates the link
       about the link's own z axis
-    chain-reversed: your code multiplies the transforms in the reverse order. Put each
-      new transform on the right of the product
+    chain-reversed: your pose is the product of the transforms in the reverse order. The
+      transforms nearest to the base belong on the left
     links-on-the-left: your code puts each link's transform on the left of the product
       and each joint's transform on the right. Put both transforms on the right
     joints-on-the-left: your code puts each joint's transform on the left of the product
@@ -38,8 +38,8 @@ def in_order(model, q, path=PATH):
 
 
 def chain_reversed(model, q, path=PATH):
-    """your code multiplies the transforms in the reverse order. Put each new transform
-    on the right of the product"""
+    """your pose is the product of the transforms in the reverse order. The transforms
+    nearest to the base belong on the left"""
     return product(L @ J for L, J in steps(model, q, path[::-1]))
 
 
@@ -53,12 +53,11 @@ def on_each_other(model, q, path=PATH):
     last-step-on-the-left: your code puts the transform of `attachment` on the left of
       the product, so this transform moves the whole arm. Put the transform on the right
       instead
-    local-taken-for-world: your code uses the `pos` and `quat` of `attachment` as its
-      pose in the world. Both are relative to the parent body, so multiply the
-      transforms of the whole chain
-    offsets-summed: your rotation is correct, but your code adds the offsets from the
-      file without rotating them. Rotate each offset first, because it is expressed in
-      the frame of its parent body
+    local-taken-for-world: your result is only the transform of `attachment` relative to
+      its parent body. Multiply the transforms of the whole chain
+    offsets-summed: your rotation is correct, but your translation is the sum of the
+      offsets in the file without their rotations. Rotate each offset first, because it
+      is expressed in the frame of its parent body
     point-with-w-0: your rotation is correct, but your translation is only the rotated
       offset of `attachment`. Add the position of the previous body as well. In
       homogeneous coordinates, a matrix product adds this position only if the fourth
@@ -100,9 +99,9 @@ def inertial(model, q, path, place):
 
 
 def offset_turned_too_late(model, q, path=PATH):
-    """your rotation is correct, but your code updates the rotation before it rotates
-    the link's offset. Multiply the offset by the rotation of the previous body
-    instead"""
+    """your rotation is correct, but each offset in your translation is rotated by the
+    rotation of its own body. Use the rotation of the previous body instead, because the
+    offset is expressed in that body's frame"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         R = R @ L[:3, :3] @ J[:3, :3]
@@ -111,8 +110,8 @@ def offset_turned_too_late(model, q, path=PATH):
 
 
 def turns_in_reverse(model, q, path=PATH):
-    """your code multiplies the rotations in the wrong order. Put each new rotation on
-    the right of the product"""
+    """your rotation is the product of the rotations in the reverse order. The rotations
+    nearest to the base belong on the left"""
     R, t = np.eye(3), np.zeros(3)
     for L, J in steps(model, q, path):
         t = t + R @ L[:3, 3]

@@ -65,7 +65,8 @@ HALVES = {
     "left-translation-lost": "your code omits the translation of the left factor",
     "right-translation-lost": "your code omits the translation of the right factor",
     "turned-backwards": "your code multiplies the right factor's translation by the "
-    "transpose of the left factor's R. Use the left factor's R unchanged",
+    "transpose of the left factor's R, as `R.T @ t` and `t @ R` do. Use `R @ t` "
+    "instead",
     "wrong-vector-turned": "your code rotates the left factor's own translation "
     "instead of the right factor's translation",
     "wrong-rotation": "your code rotates the right factor's translation by the right "
@@ -83,8 +84,8 @@ HALVES = {
     "diagonal-only": "your code multiplies the right factor's translation only by "
     "the diagonal of the left factor's R. Use `R @ t` instead, which uses all entries "
     "of R",
-    "entries-of-4x4": "your code multiplies the two 4x4 matrices entry by entry "
-    "(`A * B`). Use the matrix product instead",
+    "entries-of-4x4": "your translation is the entry-by-entry product of the two "
+    "translations, as in `A * B`. Use the translation of the matrix product instead",
 }
 
 

@@ -20,20 +20,23 @@ def _(rng):
 
 @row.wrongs
 def _(screws, M):
-    """adjoint-of-M: your code uses the adjoint of M, which maps twists from the
-      end-effector frame to the world frame. Use the adjoint of the inverse of M instead
-    from-the-right: your adjoint Ad is correct, but your code computes `screws @ Ad`.
-      Use the transpose of Ad instead, because each screw is a row of the array
+    """adjoint-of-M: your code maps the screws from the end-effector frame to the world
+      frame, with M instead of its inverse. Map the screws from the world frame to the
+      end-effector frame
+    from-the-right: your code multiplies each screw by the transpose of the correct
+      adjoint Ad, as `screws @ Ad` does. Each screw is a row of the array, so use the
+      transpose of Ad in this product
     unchanged: your code returns the screws unchanged, so they are still expressed in
       the world frame. Express them in the end-effector frame
-    transposed-for-inverse: either your code transposes Ad(M) instead of inverting it,
-      or your adjoint has [p] R in the upper right block. Both mistakes give the same
-      result
-    no-lever-arm: your code only rotates the two halves of each screw, because the lower
-      left block of your adjoint is 0. Does your code use the transpose of M as the
-      inverse of M?
-    t-only-negated: in the inverse of M, your code only negates the translation. Also
-      rotate the negated translation into the end-effector frame
+    transposed-for-inverse: your code multiplies each screw by the transpose of Ad(M)
+      instead of its inverse. An adjoint of the inverse of M with [p] R in the upper
+      right block gives the same result
+    no-lever-arm: your code only rotates the two halves of each screw. The new v should
+      also contain omega, because the two frames have different origins. Does your code
+      use the transpose of M as the inverse of M?
+    t-only-negated: your omega is correct, but your v contains a translation that is not
+      rotated into the end-effector frame. If your code inverts M, rotate the negated
+      translation into that frame too
     """
     R = M[:3, :3]
     t = M[:3, 3]

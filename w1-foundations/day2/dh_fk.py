@@ -53,7 +53,8 @@ def _(table, q):
       of the link nearest to the base belongs on the left
     multiplied-by-entries: your code multiplies the link matrices entry by entry. Use
       the matrix product instead
-    last-link-only: your loop overwrites the product, so only the last row has an effect
+    last-link-only: your result is only the matrix of the last row. Multiply the
+      matrices of all rows
     flange-typed-in: your code always uses Franka's eighth row. Use the last row of the
       argument `table`
     table-not-used: your code does not use the argument `table`, so the result is

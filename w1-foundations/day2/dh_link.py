@@ -52,9 +52,9 @@ def _(alpha, a, d, theta):
       translation by `a` should come before this rotation
     d-along-the-old-z: your code translates by `d` before the rotation about x. The
       translation by `d` should come after this rotation
-    order-of-moves: your four factors are correct, but their order is wrong. The
-      translation by `a` belongs next to the rotation about x. The translation by `d`
-      belongs next to the rotation about z
+    order-of-moves: your matrix is the product of the four correct factors in the wrong
+      order. The translation by `a` belongs next to the rotation about x. The
+      translation by `d` belongs next to the rotation about z
     """
     orders = {
         "standard-formula": "zZXx",
@@ -77,8 +77,9 @@ for order in ("zxXZ", "XzxZ", "XzZx"):
 
 @row.wrongs
 def _(alpha, a, d, theta):
-    """both-turns-backwards: your code rotates by -alpha and by -theta. Use both angles
-      unchanged
+    """both-turns-backwards: your code rotates by -alpha and by -theta. Either both
+      angles are negated, or the minus sign is at the wrong sine in both rotation
+      matrices
     radians-taken-for-degrees: your code converts both angles from degrees to radians.
       Use both angles unchanged, because they are already in radians
     alpha-forgotten: your code does not use the argument `alpha`

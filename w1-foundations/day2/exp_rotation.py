@@ -43,33 +43,34 @@ def rodrigues(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """turns-backwards: your code rotates in the opposite direction, because the sine
-      term has the wrong sign or the matrix is transposed
-    minus-square: your code subtracts the K^2 term instead of adding it, so the matrix
-      is not orthonormal
+    """turns-backwards: your code rotates in the wrong direction. Either the sine term
+      has the wrong sign, or rows and columns are exchanged
+    minus-square: the K^2 term of your matrix has the wrong sign, so the matrix is not
+      orthonormal
     square-missing: your code omits the K^2 term. Without this term, the matrix is
       orthonormal only to first order in theta
-    sine-term-missing: your code omits the K term, so the rotations by theta and -theta
-      are equal
-    identity-missing: your code omits the identity matrix. This term is needed because
-      the result at theta = 0 should be the identity matrix
-    cosine-for-one-minus-cosine: your code uses cos(theta) as the coefficient of K^2.
-      The coefficient should be 1 - cos(theta), which is 0 at theta = 0
-    one-minus-sine: your code uses 1 - sin(theta) as the coefficient of K^2. The
-      coefficient should be 1 - cos(theta), which is 0 at theta = 0
-    sin-and-cos-swapped: your code swaps the sine and the cosine, so the matrix is not
-      the identity at theta = 0
-    coefficients-swapped: your code swaps the coefficients of K and K^2. The coefficient
-      of K should be sin(theta), and the coefficient of K^2 should be 1 - cos(theta)
-    first-order-only: your code ends the series after the term theta K, so the matrix is
-      accurate only for small angles. Use the closed form with the sine and the cosine
-    second-order-only: your code ends the series after the theta^2 term, so the matrix
+    sine-term-missing: your code omits the term sin(theta) K, so the rotations by theta
+      and -theta are equal
+    identity-missing: your matrix is the correct matrix minus the identity matrix. The
+      result at theta = 0 should be the identity matrix
+    cosine-for-one-minus-cosine: the coefficient of K^2 in your matrix is cos(theta)
+      instead of 1 - cos(theta). If your formula contains axis axis^T, cos(theta) and 1
+      - cos(theta) are swapped
+    one-minus-sine: your matrix contains sin(theta) instead of cos(theta), so the matrix
+      is not the identity at theta = 0
+    sin-and-cos-swapped: the sine and the cosine are swapped in your matrix, so the
+      matrix is not the identity at theta = 0
+    coefficients-swapped: the coefficients of K and K^2 are swapped in your matrix. The
+      coefficient of K should be sin(theta), and the coefficient of K^2 should be 1 -
+      cos(theta)
+    first-order-only: your matrix is I + theta K, which is accurate only for small
+      angles. Use the closed form with the sine and the cosine
+    second-order-only: your matrix contains only the terms up to theta^2, so the matrix
       is accurate only for small angles. Use the closed form with the sine and the
       cosine
-    cosine-before-identity: your code multiplies the identity matrix by cos(theta). Omit
-      this factor, which is needed only if the formula contains axis axis^T instead of
-      K^2
-    half-angle-not-squared: your code uses 2 sin(theta / 2) as the coefficient of K^2.
+    cosine-before-identity: your matrix contains cos(theta) I instead of I. The factor
+      cos(theta) is needed only if the formula contains axis axis^T instead of K^2
+    half-angle-not-squared: the coefficient of K^2 in your matrix is 2 sin(theta / 2).
       The coefficient should be 1 - cos(theta), which equals 2 sin(theta / 2)^2
     """
     c, s = np.cos(theta), np.sin(theta)
@@ -93,11 +94,10 @@ def _(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """exp-by-entries: your code uses `np.exp`, which takes the exponential of each
-      entry. Use the matrix exponential instead, which is a series of matrix powers
-    bracket-of-a-dyad: your code uses axis axis^T but does not multiply the identity
-      matrix by cos(theta). The formula with axis axis^T instead of K^2 needs this
-      factor
+    """exp-by-entries: your matrix is the exponential of each entry, as `np.exp` returns
+      it. Use the matrix exponential instead, which is a series of matrix powers
+    bracket-of-a-dyad: your matrix contains both axis axis^T and I without the factor
+      cos(theta). Either multiply I by cos(theta), or use K^2 instead of axis axis^T
     dyad-without-factor: your code omits the factor 1 - cos(theta) in front of axis
       axis^T, so the matrix is not the identity at theta = 0
     dyad-missing: your code omits the term (1 - cos(theta)) axis axis^T. This term is

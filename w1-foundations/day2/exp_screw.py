@@ -76,8 +76,8 @@ def _(S, theta):
       with v = 0. Such a screw represents a rotation about a line through the origin
     turns-backwards: your code computes the motion for -theta, which has the opposite
       direction. Use theta itself
-    theta-wrapped: your code wraps theta to [-pi, pi]. Use theta unchanged, because the
-      translation along the axis is not periodic
+    theta-wrapped: your motion belongs to theta wrapped to [-pi, pi]. Use theta
+      unchanged, because the translation along the axis is not periodic
     """
     motions = {
         "twist-order": (np.roll(S, 3), theta),
@@ -90,14 +90,12 @@ def _(S, theta):
 
 @row.wrongs
 def _(S, theta):
-    """identity-for-theta: your rotation is correct, but the first term of your
-      translation is v. This term should be theta v, because the translation should be 0
-      at theta = 0
-    sine-for-theta: your rotation is correct, but the first term of your translation is
-      sin(theta) v. This term should be theta v, which is the integral of v from 0 to
-      theta
-    exp-coefficients-swapped: your rotation is correct, but your code swaps the
-      coefficients of K and K^2 in the translation
+    """identity-for-theta: your rotation is correct, but your translation contains v
+      instead of theta v. The translation should be 0 at theta = 0
+    sine-for-theta: your rotation is correct, but your translation contains sin(theta) v
+      instead of theta v. The term theta v is the integral of v from 0 to theta
+    exp-coefficients-swapped: your rotation is correct, but the coefficients of K and
+      K^2 are swapped in your translation
     as-in-the-rotation: your rotation is correct, but your translation uses sin(theta)
       and 1 - cos(theta), which are the coefficients of the rotation. Use the integrals
       of these two coefficients from 0 to theta
@@ -141,20 +139,22 @@ def _(S, theta):
       integral of the rotated v
     travel-is-v: your rotation is correct, but your translation is v for every theta.
       The translation should be 0 at theta = 0
-    travel-turned: your rotation is correct, but your code multiplies the correct
-      translation by R. Omit this factor
-    travel-over-theta: your rotation is correct, but your code divides the translation
-      by theta. Omit this division
-    moment-used-as-point: your code uses v as a point on the axis. The vector v is a
-      velocity. The point on the axis nearest to the origin is omega x v
+    travel-turned: your rotation is correct, but your translation is the correct
+      translation multiplied by R. Omit this factor
+    travel-over-theta: your rotation is correct, but your translation is the correct
+      translation divided by theta. Omit this division
+    moment-used-as-point: your translation is v - R v, as if v were a point on the axis.
+      The vector v is a velocity. The point on the axis nearest to the origin is omega x
+      v
     pitch-forgotten: your code omits the translation along the axis if omega is not 0.
       This translation is needed for a screw with a nonzero pitch
     pitch-without-theta: your code multiplies the translation along the axis by theta
       only if omega is 0. Always multiply this translation by theta
     hinges-only: your code omits the translation along the axis for every screw. This
       translation is 0 only for a pure rotation
-    sign-of-the-point: your rotation is correct, but your point on the axis has the
-      wrong sign. The point on the axis nearest to the origin is omega x v
+    sign-of-the-point: your rotation is correct, but the part of your translation
+      perpendicular to the axis has the wrong sign. The point on the axis nearest to the
+      origin is omega x v
     slide-forgotten: your translation is 0 for a screw with omega = 0. Such a screw
       represents a pure translation, so the translation should be theta v
     slide-without-theta: your translation is v for a screw with omega = 0. The
@@ -187,7 +187,7 @@ def _(S, theta):
 
 @row.wrong
 def exp_by_entries(S, theta):
-    """your code uses `np.exp`, which takes the exponential of each entry. Use the
+    """your matrix is the exponential of each entry, as `np.exp` returns it. Use the
     matrix exponential instead, which is a series of matrix powers"""
     bracket = np.zeros((4, 4))
     bracket[:3, :3] = skew(S[:3])

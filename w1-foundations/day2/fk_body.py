@@ -20,9 +20,9 @@ def _(body_screws, M, q):
     """M-last: your code either multiplies by M on the right of the exponentials or
       transforms the screws again. Use the given screws unchanged, with M on the left,
       because these screws are expressed in the end-effector frame
-    motions-on-the-left: your code multiplies the pose by each exponential on the left.
-      Multiply on the right instead, because the screws are expressed in the
-      end-effector frame
+    motions-on-the-left: your product contains the exponentials in the reverse order on
+      the left of M. Multiply by each exponential on the right instead, because the
+      screws are expressed in the end-effector frame
     """
     return {
         "M-last": lambda: space(body_screws, M, q),

@@ -20,9 +20,9 @@ def _(screws, M, q):
       expressed in the world frame, M belongs on the right
     M-only-added: your code adds only the translation of M. Multiply by M instead,
       because M also contains a rotation
-    space-screws-in-body-form: your code transforms the screws to the end-effector
-      frame. Use the screws unchanged, because a product with M on the right requires
-      screws expressed in the world frame
+    space-screws-in-body-form: your product contains screws expressed in the
+      end-effector frame, but M on the right. Use the screws unchanged, because a
+      product with M on the right requires screws expressed in the world frame
     """
     added = np.zeros((4, 4))
     added[:3, 3] = M[:3, 3]

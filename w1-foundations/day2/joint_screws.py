@@ -24,9 +24,9 @@ def _(rng):
 
 @row.wrongs
 def _(T_zero):
-    """axis-row-not-column: your code uses the third row of the rotation matrix as the
-      axis. Use the third column instead, which is the link's z axis expressed in the
-      world frame
+    """axis-row-not-column: your axis is R^T z, which is the third row of the rotation
+      matrix R. Use the third column instead, which is the link's z axis expressed in
+      the world frame
     axis-local-z: your code uses the axis (0, 0, 1) for every joint, which is the z axis
       expressed in the link frame. Express this axis in the world frame instead
     axis-x-column: your code uses the link's x axis. Use the link's z axis instead,

@@ -78,8 +78,8 @@ def _in_the_product(row, form):
           The exponential of the joint nearest to the base belongs on the left
         M-twice: your code multiplies by M on both sides of the exponentials. The
           product should contain M only once
-        M-in-the-loop: your code multiplies by M inside the loop, so the product
-          contains M once per joint. The product should contain M only once
+        M-in-the-loop: your product contains M once per joint. The product should
+          contain M only once
         multiplied-by-entries: your code multiplies the exponentials entry by entry. Use
           the matrix product instead
         multiplied-by-entries 2: your code multiplies the exponentials entry by entry.
@@ -98,7 +98,7 @@ def _in_the_product(row, form):
 
     @row.wrong
     def exponentials_summed(screws, M, q):
-        """your code adds the twists and computes one exponential of the sum. Multiply
+        """your result contains a single exponential of the sum of the twists. Multiply
         the exponentials instead, because e^(A + B) is in general not equal to e^A
         e^B"""
         V = q @ screws

@@ -31,8 +31,8 @@ def _(axis, point):
     moment-is-foot: your v is the position of the point on the axis that is nearest to
       the origin. The vector v should be the velocity of the body-fixed point at the
       origin. This velocity is perpendicular to your v
-    moment-forgotten: your code sets v to 0, which is correct only for an axis through
-      the origin. Compute v from the axis and the point
+    moment-forgotten: your v is always 0, which is correct only for an axis through the
+      origin. Compute v from the axis and the point
     twist-order: your code swaps omega and v. The first half of the screw should be
       omega, and the second half should be v
     twist-order-and-sign: your code swaps omega and v, and your v also has the wrong

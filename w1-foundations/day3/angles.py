@@ -44,9 +44,9 @@ def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
     if one_of_two[some].max() > OFF and _alike(np.abs(S[some]), np.abs(T[some])):
         return Finding(
             "signs-near-pi",
-            f"{says} The entries are correct except for their signs, because the "
-            "square roots of the diagonal entries are never negative. Which entries of "
-            "R + R^T determine the relative signs?",
+            f"{says} The entries are correct except for their signs, which the "
+            "diagonal entries of R do not determine. Which entries of R + R^T "
+            "determine the relative signs?",
         )
     if found := _set_to_pi(S, T, some):
         return found
@@ -79,8 +79,9 @@ def _zero_near_0(S: Array, T: Array, some: np.ndarray) -> Finding | None:
     angle = float(np.linalg.norm(T[some], axis=1).max())
     return Finding(
         "zero-for-small-angles",
-        f"Your result is 0 for a rotation by {angle:.0e} rad, so a threshold is too "
-        f"large. Which formula for small angles needs no division?",
+        f"Your result is 0 for a rotation by {angle:.0e} rad. Either a threshold is "
+        "too large, or the cosine of the angle is rounded to 1. Which formula for "
+        "small angles needs no division?",
     )
 
 
@@ -100,8 +101,9 @@ def _everywhere(
     if difference(S[off], other_way).max() < OFF:
         return Finding(
             "angle-over-pi",
-            f"Your angle is more than pi for {k} of {n} rotations. The quaternions q "
-            f"and -q represent the same rotation, so use the quaternion with w > 0.",
+            f"Your angle is more than pi for {k} of {n} rotations. A rotation about "
+            "the opposite axis has a smaller angle. For a quaternion, use the sign "
+            "with w > 0.",
         )
     least = angle[off].min()
     if angle[angle < least].max(initial=0.0) < 2.0:

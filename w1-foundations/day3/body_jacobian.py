@@ -29,14 +29,16 @@ def _(J_space, T):
     rotation-only: your code only rotates J_space into the hand frame, so v is still the
       velocity of the body-fixed point at the world origin. Use the velocity of the
       point at the hand origin instead
-    transposed-adjoint: your code uses the transpose of Ad(T). Use Ad(T^-1) instead,
-      which is the inverse of Ad(T)
-    bracket-without-R: the lower left block of your adjoint is [p]. This block should be
-      [p] R, where R and p are the rotation and the translation of T^-1
-    bracket-on-the-right: the lower left block of your adjoint is R [p]. This block
-      should be [p] R, where R and p are the rotation and the translation of T^-1
-    turned-by-R: your code multiplies J_site by R, which rotates from the hand frame to
-      the world frame. Use R^T instead
+    transposed-adjoint: your result is Ad(T)^T J_space. Use Ad(T^-1) instead, which is
+      the inverse of Ad(T)
+    bracket-without-R: your v contains the term p x omega instead of p x (R omega),
+      where R and p are the rotation and the translation of T^-1. In an adjoint, this is
+      the block [p] instead of [p] R
+    bracket-on-the-right: your v contains the term R (p x omega) instead of p x (R
+      omega), where R and p are the rotation and the translation of T^-1. In an adjoint,
+      this is the block R [p] instead of [p] R
+    turned-by-R: both halves of your result are multiplied by R, which rotates from the
+      hand frame to the world frame. Use R^T instead
     """
     J_site = site_jacobian(J_space, T[:3, 3])
     R = np.kron(np.eye(2), T[:3, :3])

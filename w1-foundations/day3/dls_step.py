@@ -41,9 +41,8 @@ def _(J, e, damping):
     """relative-damping: your code multiplies `damping` by the largest singular value of
       J. Use `damping` unchanged, because the step minimises |J dq - e|^2 + damping^2
       |dq|^2
-    damping-dropped: your code omits the damping, so the result is the pseudo-inverse
-      step, which is very large near a singularity. Add damping^2 to the diagonal of J
-      J^T
+    damping-dropped: your result is the pseudo-inverse step, which is very large near a
+      singularity. With damping, the step minimises |J dq - e|^2 + damping^2 |dq|^2
     damping-everywhere: your code adds damping^2 to every entry of J J^T. Add damping^2
       only to the diagonal of J J^T
     transpose-only: your code returns the gradient step J^T e. The damped least-squares
@@ -58,9 +57,9 @@ def _(J, e, damping):
     singular-value-missing 2: for each singular value s above 0, your code uses the
       factor 1 / (s^2 + damping^2). Multiply this factor by s, because J^T contributes a
       factor of s
-    damping-as-a-cut: your code passes `damping` to the pseudo-inverse as `rcond`, which
-      discards the directions with small singular values. Damping should only reduce the
-      step along these directions
+    damping-as-a-cut: your step omits the directions with small singular values, as the
+      pseudo-inverse with `damping` as `rcond` does. Damping should only reduce the step
+      along these directions
     singular-value-missing: for each singular value s, your code uses the factor 1 /
       (s^2 + damping^2). Multiply this factor by s, because J^T contributes a factor of
       s

@@ -34,10 +34,11 @@ def _(J_space, p, F):
       dot product of the moment and omega
     force-forgotten: your code omits the force in F. The power of F also includes the
       dot product of the force and v
-    arm-the-wrong-way: your code uses f x p as the moment of the force f about the world
-      origin. Use p x f instead
-    arm-twice: your code adds p x f, with the force f, to the moment and also uses the
-      site Jacobian of p. Use this sum with J_space, or the given moment with the site
+    arm-the-wrong-way: your torques contain f x p instead of p x f as the moment of the
+      force f about the world origin. In the site Jacobian, the same mistake is p x
+      omega instead of omega x p
+    arm-twice: your torques contain the moment p x f of the force f twice. Use the
+      moment about the world origin with J_space, or the given moment with the site
       Jacobian of p => both
     """
     J = site_jacobian(J_space, p)

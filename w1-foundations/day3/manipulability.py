@@ -39,14 +39,15 @@ def values(J):
 
 @row.wrongs
 def _(J):
-    """no-square-root: your code returns det(J J^T). Return the square root of this
-      determinant instead
-    other-product: your code uses J^T J, which is 7x7 and always singular. Use J J^T
+    """no-square-root: your result is det(J J^T), which is the product of the squared
+      singular values. Return the square root of this determinant instead
+    other-product: your result is 0 up to rounding, like the determinant of the 7x7
+      matrix J^T J, which is always singular. Use J J^T or the six singular values of J
       instead
     largest-singular-value: your code returns the largest singular value of J. The
       result should be the product of all six singular values
-    trace: your code uses the trace of J J^T, which is the sum of the eigenvalues. Use
-      the determinant instead, which is the product of the eigenvalues
+    trace: your result is the square root of the trace of J J^T, which is the sum of the
+      eigenvalues. Use the determinant instead, which is the product of the eigenvalues
     inverse-condition: your code returns the smallest singular value divided by the
       largest. The result should be the product of all six singular values
     square-part: your code returns the determinant of the first six columns. Use all

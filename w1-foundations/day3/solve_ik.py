@@ -32,8 +32,8 @@ def _(screws, M, T_goal, q_start, limits):
       approximation, so repeat the step until the error is small
     start-returned: your code returns `q_start`, because it takes no step or because
       every step increases the error. Does your error have the correct sign?
-    step-returned: your code returns the last step. Return the configuration after this
-      step instead
+    step-returned: your result is 0 for every joint, like the last step at the target.
+      Return the configuration after this step instead
     """
     first = partial(passed, screws, M, T_goal, q_start, limits, steps=1)
     return {
@@ -61,13 +61,13 @@ def _(screws, M, T_goal, q_start, limits):
     error-in-the-hands-axes: your code combines J_site, which is expressed in the world
       frame, with an error that is expressed in the hand frame. Express both in the same
       frame
-    damping-not-squared: your code adds the damping itself to the diagonal of J J^T. Add
-      damping^2 instead
+    damping-not-squared: your steps contain the damping itself instead of its square, as
+      in J J^T + damping I. Use damping^2 instead
     limits-forgotten: your code does not apply the joint limits. Apply the limits after
       each step
     jacobian-never-updated: your code computes the Jacobian only at the start. Compute a
       new Jacobian in every step, because the Jacobian depends on q
-    q-start-unused: your loop starts from READY_Q. Start from the argument `q_start`
+    q-start-unused: your code starts from READY_Q. Start from the argument `q_start`
       instead
     """
     J = at_hand(space_jacobian(screws, q_start), fk_space(screws, M, q_start))
@@ -89,8 +89,8 @@ def _(screws, M, T_goal, q_start, limits):
 
 @row.wrong(hidden="it arrives all the same: success is no proof")
 def damping_not_squared(screws, M, T_goal, q_start, limits):
-    """your code passes damping^2 to the damped least-squares step, which squares this
-    value again. Pass the damping itself instead"""
+    """your steps contain damping^4 instead of damping^2. Pass the damping itself to the
+    damped least-squares step, which already squares this value"""
     return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: ee / 2 + 1e-6)
 
 
@@ -103,7 +103,7 @@ def limits_at_the_end(screws, M, T_goal, q_start, limits):
 
 @row.wrong
 def q_start_unused(screws, M, T_goal, q_start, limits):
-    """your loop starts from q = 0. Start from the argument `q_start` instead"""
+    """your code starts from q = 0. Start from the argument `q_start` instead"""
     return walk(screws, M, T_goal, np.zeros(7), limits)
 
 

@@ -59,19 +59,19 @@ def _(screws, q):
       screw by the motions of all joints before it
     last-joint-only: your code transforms each screw only by the motion of the joint
       directly before it. Use the motions of all joints before it
-    product-reversed: your code multiplies the exponentials in reverse order. The
-      exponential of joint 1 should be the leftmost factor
-    one-joint-late: your code transforms each screw with a product of exponentials that
-      omits the preceding joint. Multiply the product by the exponential of this joint
-      first
+    product-reversed: your code transforms each screw by the motions of the joints
+      before it in the reverse order. The exponential of joint 1 should be the leftmost
+      factor
+    one-joint-late: your code transforms each screw without the motion of the joint
+      directly before it. Use the motions of all joints before it
     moved-by-the-next: your code also transforms each screw by the motion of the joint
       after it. Use only the motions of the joints before it
     moved-by-all: your code transforms every screw by the motions of all seven joints.
       Use only the motions of the joints before it
     moved-by-those-after: your code transforms each screw by the motions of the joints
       after it. Use the motions of the joints before it instead
-    adjoint-of-the-inverse: your code transforms the screws with the adjoint of the
-      inverse motion. Use the adjoint of the motion itself
+    adjoint-of-the-inverse: your code transforms each screw by the inverse of the motion
+      of the joints before it. Use the motion itself
     columns-reversed: your code returns the columns in reverse order. The column of
       joint 1 should come first
     """
@@ -94,14 +94,16 @@ def _(screws, q):
 
 @row.wrongs
 def _(screws, q):
-    """bracket-top-right: your code puts the block [p] R of the adjoint in the upper
-      right. With the order (omega; v), this block belongs in the lower left
-    bracket-after-R: the lower left block of your adjoint is R [p]. This block should be
-      [p] R
-    rotation-only: your code only rotates the screws, because your adjoint omits the
-      block [p] R. This block belongs in the lower left
-    translation-only: your code does not rotate the screws, because the diagonal blocks
-      of your adjoint are the identity matrix. Both blocks should be R
+    """bracket-top-right: your omega contains the term p x (R v), as from an adjoint
+      with [p] R in the upper right. With the order (omega; v), v should contain the
+      term p x (R omega) instead
+    bracket-after-R: your v contains the term R (p x omega), as from an adjoint with the
+      block R [p]. This term should be p x (R omega), because p is expressed in the
+      world frame
+    rotation-only: your code only rotates the screws. Their v should also contain the
+      term p x (R omega), which is the block [p] R in the lower left of the adjoint
+    translation-only: your code does not rotate the screws. Both halves should be
+      multiplied by R, which is in both diagonal blocks of the adjoint
     """
     adjoints = {
         "bracket-top-right": lambda R, P: [[R, P @ R], [ZERO, R]],

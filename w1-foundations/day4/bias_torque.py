@@ -23,14 +23,12 @@ def _(J, G, qd, g):
       torques are twice the correct values. Does your code add a velocity term twice?
     coriolis-half: your gravity torque is correct, but your Coriolis and centrifugal
       torques are half the correct values. Does your code omit a velocity term?
-    speed-in-place-of-acceleration: your code passes qd as the acceleration and 0 as the
-      velocity. Pass qd as the velocity and 0 as the acceleration
-    gravity-left-out: your code passes 0 instead of `g`, so the result contains only
-      the Coriolis and centrifugal torques. Pass `g`, because the bias contains the
-      gravity torque as well
-    velocity-left-out: your code passes 0 as the velocity, so the result is only the
-      gravity torque. Pass qd, because the bias contains the Coriolis and centrifugal
-      torques as well
+    speed-in-place-of-acceleration: your result is the torque for the acceleration qd
+      and the velocity 0. Use qd as the velocity and 0 as the acceleration
+    gravity-left-out: your result omits the gravity torque, so it contains only the
+      Coriolis and centrifugal torques. The bias contains the gravity torque as well
+    velocity-left-out: your result is only the gravity torque. The bias contains the
+      Coriolis and centrifugal torques as well, which depend on qd
     damping-added: your code adds the damping torque (1.0 qd). Omit this torque, because
       MuJoCo and task 4.8 treat it separately
     """
@@ -59,8 +57,8 @@ row.reached_by(
 
 @row.wrong
 def rate_of_the_mass_matrix(J, G, qd, g):
-    """your code uses only dM/dt qd as the velocity term. Also subtract the gradient of
-    the kinetic energy with respect to q, as in Lagrange's equations"""
+    """your Coriolis and centrifugal torques are only dM/dt qd. Also subtract the
+    gradient of the kinetic energy with respect to q, as in Lagrange's equations"""
     X = ad(np.cumsum(J * qd, axis=1).T)  # of each link
     J_rate = np.array([X_i @ S for X_i, S in zip(X, J.T)]).T
     G_rate = np.array([-X_i.T @ G_i - G_i @ X_i for X_i, G_i in zip(X, G)])

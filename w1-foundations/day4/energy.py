@@ -26,8 +26,9 @@ def _(rng):
 
 @row.wrongs
 def _(M, qd, masses, coms_world, g):
-    """speed-squared-too-early: your code squares qd before the multiplication by M. The
-      kinetic energy should contain qd on both sides of M, as in qd^T M qd
+    """speed-squared-too-early: your kinetic energy contains the product of M and the
+      squared entries of qd. The kinetic energy should contain qd on both sides of M, as
+      in qd^T M qd
     every-mass-everywhere: your code multiplies the height of each link by the mass of
       the whole arm. Multiply by the mass of that link instead
     distance-for-height: your code uses the distance between the origin and each centre

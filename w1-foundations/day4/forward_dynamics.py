@@ -55,11 +55,11 @@ def _(M, bias, damping, qd, tau):
       of h = 2 ms. Return qdd instead
     divided-entry-by-entry: your code takes the reciprocal of each entry of M (`1 / M`).
       Use the matrix inverse of M instead, or solve the linear system
-    damping-not-divided: your code subtracts the damping torque after the multiplication
-      by M^-1. Subtract this torque before the multiplication, because the result is an
-      acceleration
-    only-torque-divided: your code multiplies only `tau` by M^-1. Subtract `bias` and
-      the damping torque from `tau` first, because both are also torques
+    damping-not-divided: the damping torque in your result is not multiplied by M^-1.
+      Subtract this torque from `tau` before the multiplication, because the result is
+      an acceleration
+    only-torque-divided: only `tau` is multiplied by M^-1 in your result. Subtract
+      `bias` and the damping torque from `tau` first, because both are also torques
     """
     brake = damping * qd
     net = tau - bias - brake
@@ -81,15 +81,15 @@ def _(M, bias, damping, qd, tau):
 
 @row.wrong
 def half_solved(M, bias, damping, qd, tau):
-    """your code solves only the first of the two triangular systems. M equals L L^T, so
-    solve with L first and then with L^T"""
+    """your result is L^-1 (tau - bias - damping qd), where M equals L L^T. Solve the
+    second triangular system, which contains L^T, as well"""
     return solve(np.linalg.cholesky(M), tau - bias - damping * qd)
 
 
 @row.wrong
 def one_factor_twice(M, bias, damping, qd, tau):
-    """your code uses L again in the second triangular system. M equals L L^T, so use
-    L^T in the second system"""
+    """your result contains L^-1 L^-1 instead of M^-1. M equals L L^T, so the second
+    triangular system should contain L^T"""
     L = np.linalg.cholesky(M)
     return solve(L, solve(L, tau - bias - damping * qd))
 

@@ -41,11 +41,11 @@ def torque(
 def _(J, masses, coms_world, g):
     """gravity-sign: your code returns the torque that gravity exerts. Return the
       negative of this torque, which is the motor torque that balances gravity
-    velocity-of-the-origin: your code uses the lower half of J_space, which gives the
-      velocity of the body-fixed point at the world origin. Use the velocity of each
-      centre of mass instead, because the weight of a link acts at its centre of mass
-    omega-rows-for-v: your code uses the upper half of J_space, which gives omega. Use
-      the velocity of each centre of mass c instead, which is v + omega x c
+    velocity-of-the-origin: your torques contain v from J_space, which is the velocity
+      of the body-fixed point at the world origin. Use the velocity of each centre of
+      mass instead, because the weight of a link acts at its centre of mass
+    omega-rows-for-v: your torques contain omega from J_space. Use the velocity of each
+      centre of mass c instead, which is v + omega x c
     """
     given = masses, coms_world, g
     tau = gravity_torque(J, *given)

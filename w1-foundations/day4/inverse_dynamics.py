@@ -54,11 +54,11 @@ def passes(
 
 @row.wrongs
 def _(J, G, qd, qdd, g):
-    """base-acceleration-sign: your code uses g instead of `-g` as the acceleration of
-      the base. A base at rest under gravity is equivalent to a base with the
-      acceleration `-g` and without gravity
-    gravity-only: your code uses neither qd nor qdd, so the result is only the gravity
-      torque. Use both arguments
+    """base-acceleration-sign: your gravity torque has the wrong sign. A base at rest
+      under gravity is equivalent to a base with the acceleration `-g` and without
+      gravity
+    gravity-only: your result is only the gravity torque. Include the torques due to qd
+      and qdd as well
     armature-added: your code adds the armature torque (0.1 qdd). Omit this torque,
       because this task models only the links
     damping-added: your code adds the damping torque (1.0 qd). Omit this torque, because
@@ -99,10 +99,11 @@ def _(J, G, qd, qdd, g):
       instead, because V already contributes the second factor of velocity
     bracket-not-transposed: your code uses -ad(V) G V in the wrench. Use -ad(V)^T G V
       instead, because wrenches transform with the transpose of ad(V)
-    velocity-product-forgotten: your code uses only G A as the wrench. Subtract ad(V)^T
-      G V as well, because G changes when the link moves
-    velocity-of-the-link-before: your code computes each link's wrench before it adds
-      the velocity of the link's own joint to V. Add this velocity first
+    velocity-product-forgotten: your wrenches omit the term -ad(V)^T G V. Add this term
+      to G A, because G changes when the link moves
+    velocity-of-the-link-before: your term -ad(V)^T G V of each wrench contains the
+      velocity of the previous link. Use the velocity of the link itself, which includes
+      the motion of its own joint
     summed-from-the-base: for each joint, your code sums the wrenches on the links from
       the base up to that joint's link. Sum the wrenches from that joint's link to the
       tip instead, because the joint carries these links
@@ -117,8 +118,8 @@ def _(J, G, qd, qdd, g):
     accelerations-not-added: your code omits the acceleration of the previous link from
       each link's acceleration. Add this acceleration, because the earlier joints also
       move the link
-    nothing-added-outwards: your code resets V and A at every link. Accumulate both
-      along the arm
+    nothing-added-outwards: your V and A of each link contain only the motion of its own
+      joint. Accumulate both along the arm
     gravity-at-every-link: your code adds gravity at the base and again at every link.
       Add gravity only at the base, because the recursion propagates this acceleration
       to every link

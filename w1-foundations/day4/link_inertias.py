@@ -52,7 +52,7 @@ def _(T_links, masses, coms, inertias):
       T. Use T itself, which maps link coordinates to world coordinates
     inertia-not-turned: your inertia about the centre of mass is still expressed in the
       link frame. Rotate the inertia into the world frame
-    inertia-turned-back: your code computes R^T I R. Compute R I R^T instead, which
+    inertia-turned-back: your matrices contain R^T I R instead of R I R^T, which
       expresses the inertia in the world frame
     inertia-diagonal: your code uses only the diagonal of each inertia matrix. Use all
       entries, because the axes of the link frame are in general not the principal axes
@@ -78,8 +78,8 @@ def _(T_links, masses, coms, inertias):
 
 @row.wrongs
 def _(T_links, masses, coms, inertias):
-    """left-in-link-axes: your code does not use T_links, so each matrix is expressed in
-      its link frame. Transform each matrix into the world frame
+    """left-in-link-axes: each of your matrices is expressed in its link frame.
+      Transform each matrix into the world frame with T_links
     adjoint-not-inverted: your code returns Ad(T) G Ad(T)^T. The factor on the right of
       G should map a twist from the world frame to the link frame. The factor on the
       left should be the transpose of the factor on the right

@@ -28,10 +28,10 @@ def links(J, G, counts):
 
 @row.wrongs
 def _(J, G, armature):
-    """armature-per-link: your code adds the armature once per link. Add the armature
-      only once, because each joint has only one rotor
-    mirrored-with-the-diagonal: your code adds a triangle of M, including the diagonal,
-      to its transpose. This sum doubles the diagonal, so mirror only the off-diagonal
+    """armature-per-link: your M contains 7 times the armature. Add the armature only
+      once, because each joint has only one rotor
+    mirrored-with-the-diagonal: the diagonal of your M is twice the correct diagonal. If
+      your code adds a triangle of M to its transpose, mirror only the off-diagonal
       entries
     """
     M = mass_matrix(J, G, armature)
@@ -42,19 +42,19 @@ def _(J, G, armature):
 
 
 def cut(J, G, armature):
-    """columns-not-cut: your code uses all columns of J_space for each link. Set the
-      columns of the joints after the link to 0, because these joints do not move the
+    """columns-not-cut: each link contributes to all entries of your M. The entries of
+      the joints after the link should not contain the link, because these joints do not
+      move the link
+    own-joint-left-out: each link in your M contributes only to the entries of earlier
+      joints. Include the entries of its own joint, because this joint also moves the
       link
-    own-joint-left-out: in each link's Jacobian, your code omits the column of the
-      link's own joint. Include this column, because this joint also moves the link
-    next-joint-too: in each link's Jacobian, your code also includes the column of the
-      next joint. Omit this column, because the next joint does not move the link
-    columns-cut-on-the-wrong-side: in each link's Jacobian, your code uses the columns
-      of the link's own joint and of all later joints. Use the columns of the link's own
-      joint and of all earlier joints instead
-    own-joint-only: in each link's Jacobian, your code uses only the column of the
-      link's own joint. Include the columns of all earlier joints, because these joints
-      also move the link
+    next-joint-too: each link in your M also contributes to the entries of the next
+      joint. Omit this contribution, because the next joint does not move the link
+    columns-cut-on-the-wrong-side: each link in your M contributes to the entries of its
+      own joint and of all later joints. Use its own joint and all earlier joints
+      instead, because these joints move the link
+    own-joint-only: each link in your M contributes only to the entry of its own joint.
+      Include the entries of all earlier joints, because these joints also move the link
     """
     joint = np.arange(7)
     link = np.arange(7)[:, None]
@@ -73,9 +73,9 @@ row.wrongs(cut)
 
 @row.wrongs
 def _(J, G, armature):
-    """corners-swapped: your code uses the off-diagonal blocks of G with the wrong sign.
-      Use G unchanged. Your M is still symmetric and positive definite, so these two
-      properties do not reveal the mistake
+    """corners-swapped: the terms with the off-diagonal blocks of G have the wrong sign
+      in your M. Use G and J_space unchanged. Your M is still symmetric and positive
+      definite, so these two properties do not reveal the mistake
     corners-dropped: your code omits the off-diagonal blocks of G. Use all of G, because
       these blocks couple rotation and translation
     angular-half-only: your code uses only the angular half of J_space. Use all six

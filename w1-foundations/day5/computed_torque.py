@@ -37,9 +37,9 @@ def _(rng):
 
 @row.wrongs
 def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
-    """gains-outside-M: your code adds the PD terms after the multiplication by M.
-      Multiply these terms by M too, because otherwise joints with different inertias
-      respond differently
+    """gains-outside-M: the PD terms in your result are not multiplied by M. Multiply
+      these terms by M too, because otherwise joints with different inertias respond
+      differently
     damping-forgotten: your code omits the damping torque. Add `damping * qd`, because
       `bias` does not contain this torque
     friction-of-the-error: your code multiplies `damping` by ed. Multiply `damping` by
@@ -52,10 +52,10 @@ def _(M, bias, damping, qd, e, ed, qdd_ref, kp, kd):
       and the Coriolis torque. Add `bias` to the torque
     bias-sign: your code subtracts `bias`. Add `bias` instead, because the motors must
       supply this torque even at zero acceleration
-    everything-through-M: your code multiplies `bias` and the damping torque by M. Add
-      both after the multiplication by M, because both are already torques
-    reference-outside-M: your code adds qdd_ref after the multiplication by M. Multiply
-      qdd_ref by M too, because qdd_ref is an acceleration
+    everything-through-M: `bias` and the damping torque are multiplied by M in your
+      result. Add both without this factor, because both are already torques
+    reference-outside-M: qdd_ref is not multiplied by M in your result. Multiply qdd_ref
+      by M too, because qdd_ref is an acceleration
     measured-velocity-damped: your code uses `-kd qd` as the derivative term, so the
       controller also brakes the desired motion. Use kd ed instead
     armature-twice: your code adds the armature (0.1 kg m2) to M. Use M unchanged,

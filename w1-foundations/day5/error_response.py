@@ -119,10 +119,12 @@ def _(t, omega, zeta):
 def _(t, omega, zeta):
     """slow-exponential-alone: your code uses only the slow exponential for zeta above
       1. Use both exponentials, so that the derivative of the error is 0 at t = 0
-    both-halves: your code gives both exponentials the weight 1/2 for zeta above 1.
-      Choose the two weights so that the derivative of the error is 0 at t = 0
-    weights-swapped: your code swaps the weights of the two exponentials for zeta above
-      1. The slow exponential should have the larger weight
+    both-halves: for zeta above 1, your error is the mean of the two exponentials, so it
+      omits the sinh term. Choose the two weights so that the derivative of the error is
+      0 at t = 0
+    weights-swapped: for zeta above 1, your weights of the two exponentials are swapped,
+      or your sinh term has the wrong sign. The slow exponential should have the larger
+      weight
     weights-summed: for zeta above 1, the derivative of your error at t = 0 is not 0. If
       your formula contains two exponentials, replace the plus sign with a minus sign in
       both the numerator and the denominator. If your formula contains cosh and sinh,

@@ -20,8 +20,9 @@ def one_gain(inputs, many="kp and kd have 7 entries each", one=TWO_NUMBERS):
         stops = any(call.reply.kind for call in failing)
         how = "stops with an error" if stops else "is wrong"
         return (
-            f"Your function is correct if {many}. It {how} if {one}. Which "
-            "multiplication operator accepts both arrays and single numbers?"
+            f"Your function is correct if {many}. It {how} if {one}. A single number "
+            "has no index and no `@`. Which operation accepts both arrays and single "
+            "numbers?"
         )
 
     return HeldOut("one-number-as-gain", says(), inputs, told=says)

@@ -20,8 +20,8 @@ def _(h):
       damping and the new velocity, the limit is lower
     one-over-h: your code returns 1 / h. Return the omega at which the matrix of the
       step has an eigenvalue of -1
-    larger-root: your code returns the absolute value of the negative root of the
-      quadratic equation. Return the positive root instead
+    larger-root: your result is the absolute value of the negative root of the quadratic
+      equation for omega. Return the positive root instead
     nyquist: your code returns the Nyquist frequency pi / h, which is not a stability
       limit. Return the omega at which the step matrix has an eigenvalue of -1
     in-hertz: your code returns the limit in Hz. Return the limit in rad/s instead

@@ -14,8 +14,8 @@ row.inputs(springs)
 def _(e, ed, kp, kd):
     """one-gain-for-all: your code uses the gains of the first joint for all joints. Use
       each joint's own gains
-    summed-over-joints: your code computes the dot product `kp @ e`, which sums over the
-      joints. Multiply entry by entry, because each joint has its own torque
+    summed-over-joints: your code gives each joint the sum over all joints, like the dot
+      product `kp @ e`. Multiply entry by entry, because each joint has its own torque
     mean-gains: your code uses the mean of the gains for all joints. Use each joint's
       own gains
     """

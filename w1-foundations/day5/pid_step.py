@@ -81,12 +81,12 @@ def summed(sums):
 
 @summed
 def _(e, ed, integral, ki, dt, clamp):
-    """trapezoid-of-the-error: your code averages e with the error of the previous step.
-      The integral should change by e dt
-    trapezoid-of-the-error 2: your code averages e with the error of the next step. The
-      integral should change by e dt
-    old-sum-clamped: your code clamps the old integral before it adds e dt. Add e dt
-      first, and then clamp the integral
+    """trapezoid-of-the-error: your integral changes by dt times the mean of e and the
+      error of the previous step. The integral should change by e dt
+    trapezoid-of-the-error 2: your integral changes by dt times the mean of e and the
+      error of the next step. The integral should change by e dt
+    old-sum-clamped: the sum of the old integral and e dt is not clamped in your result.
+      Add e dt first, and then clamp the integral
     error-clamped: your code clamps the error instead of the integral, so the integral
       can still grow without bound. Add e dt first, and then clamp the integral
     step-clamped: your code clamps only e dt, so the integral can still grow without
@@ -139,12 +139,12 @@ def _(e, ed, integral, kp, kd, ki, dt, clamp):
     bound-not-handed-back: your code uses the clamped integral in the acceleration, but
       it returns the unclamped integral. Return the clamped integral too, so that the
       integral cannot grow without bound
-    old-integral-used: your code computes the acceleration from the integral of the
-      previous step. Update the integral first
+    old-integral-used: your acceleration contains the integral of the previous step. Use
+      the updated integral instead
     old-integral-kept: your code returns the old integral. Return the updated integral
       instead
-    this-step-alone-used: your code multiplies only the current e dt by ki. Multiply the
-      whole integral by ki
+    this-step-alone-used: your acceleration contains ki times the current e dt alone.
+      Multiply the whole integral by ki
     ki-in-the-integral: your integral already contains ki, so `clamp` no longer limits
       the integral of the error. Multiply the integral by ki only in the acceleration
     term-handed-back: your code returns ki times the integral. Return the integral

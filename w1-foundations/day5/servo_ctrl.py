@@ -21,8 +21,8 @@ def _(rng):
 
 @row.wrongs
 def _(tau, q, qd, kp, kd):
-    """damper-not-divided: your code divides only `tau` by kp. Divide the sum of `tau`
-      and kd qd by kp, because kd qd is also a torque
+    """damper-not-divided: only `tau` is divided by kp in your result. Divide the sum of
+      `tau` and kd qd by kp, because kd qd is also a torque
     torque-of-the-command: your code returns the torque of a servo whose command is
       `tau`. Solve the servo equation for the command instead
     """
