@@ -140,8 +140,8 @@ def _(Y, tau, rtol):
       not shrink
     mean-taken-off: your code first subtracts the mean of tau. Use tau unchanged,
       because the model tau = Y phi has no constant term
-    times-s: in your result, U^T tau is multiplied by the singular values, as in Y^T
-      tau. Divide U^T tau by the singular values instead, as in the pseudo-inverse of Y
+    times-s: your result multiplies U^T tau by the singular values, as in Y^T tau.
+      Divide U^T tau by the singular values instead, as in the pseudo-inverse of Y
     first-columns: your code fits only the first r columns of Y, where r is the rank.
       These columns need not be linearly independent, so use all columns and the SVD
     """
