@@ -46,8 +46,8 @@ def _(e, V_err, K, D, force):
       from the spring force along z. The other five errors also contribute to this
       force, so remove the whole last entry of K e
     column-in-place-of-row: your result ignores the error along z in all six directions,
-      which is the last column of K. Remove the spring force along z instead, which is
-      `K[5] @ e`
+      so the last column of K has no effect. Remove the spring force along z instead,
+      which is `K[5] @ e`
     """
     spring, damper = K @ e, D @ V_err
     both = spring + damper

@@ -94,9 +94,9 @@ for slug, says, code in (
      "lower triangle",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
-    ("about-the-centre", "your code first moves I to the centre of mass. Use I "
-                         "unchanged, because the pseudo-inertia also refers to the "
-                         "origin",
+    ("about-the-centre",
+     "your result uses the inertia about the centre of mass. Use I unchanged, because "
+     "the pseudo-inertia also refers to the origin",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
     ("of-the-inertia",
      "your code returns the smallest eigenvalue of the 6x6 spatial inertia. Use the "

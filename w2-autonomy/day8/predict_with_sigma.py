@@ -37,8 +37,8 @@ def _(Y, tau, Y_new, rtol):
       sqrt(r . r / (n - rank)) instead, where r is the vector of residuals
     noise-added: your code adds the noise of a new measurement to sigma. Omit this
       noise, because sigma should include only the uncertainty of the fitted parameters
-    mean-taken-off: your code first subtracts the mean from the residuals. Use the
-      residuals unchanged, because their mean is part of the noise
+    mean-taken-off: your noise level omits the mean of the residuals, as np.std does.
+      Use the residuals unchanged, because their mean is part of the noise
     rank-taken-off-last: your code divides the sum of the squared residuals by n and
       then subtracts the rank. Divide the sum by n - rank instead
     noise-for-sigma: your code returns the noise level as sigma for every row of Y_new.

@@ -138,7 +138,7 @@ def _(Y, tau, rtol):
       Y^T Y, which shrinks the estimates of all combinations of parameters. Omit the
       small singular values instead, so that the estimates of the other combinations do
       not shrink
-    mean-taken-off: your code first subtracts the mean of tau. Use tau unchanged,
+    mean-taken-off: your result is the fit to tau minus its mean. Use tau unchanged,
       because the model tau = Y phi has no constant term
     times-s: your result multiplies U^T tau by the singular values, as in Y^T tau.
       Divide U^T tau by the singular values instead, as in the pseudo-inverse of Y
