@@ -212,7 +212,7 @@ def test_two_mistakes_in_answers_of_several_sizes_are_both_told():
 
     says = told(9, "9.5", kalman_update=kalman_update)
     assert says.startswith(
-        "Your code has two mistakes. First, it uses H x - z as the innovation"
+        "Your code has two mistakes. First, it uses the wrong sign for the innovation"
     )
 
 

@@ -120,8 +120,8 @@ for slug, says, other in (
      {"turn": partial(turns, rotation=all_turned)}),
     ("R-transposed",
      "your code returns the transposed rotation. R should be U D V^T for the SVD of "
-     "the sum of a b^T, because it maps the camera's rotation vectors b to the hand's "
-     "rotation vectors a",
+     "the sum of a b^T, where D = diag(1, 1, det U V^T), because R maps the camera's "
+     "rotation vectors b to the hand's rotation vectors a",
      {"turn": lambda A, B: turns(A, B).T}),
     ("centred",
      "your code subtracts the means of the rotation vectors. Use the rotation vectors "

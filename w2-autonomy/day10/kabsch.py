@@ -91,7 +91,8 @@ for slug, says, other in (
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
     ("R-transposed",
      "your code returns the transposed rotation, which maps the target to the source. "
-     "R should be U D V^T for the SVD of target^T source, with both clouds centred",
+     "R should be U D V^T for the SVD of target^T source with both clouds centred, "
+     "where D = diag(1, 1, det U V^T)",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
     ("worst-fit",
      "your code returns the rotation with the largest sum of squared distances, not "

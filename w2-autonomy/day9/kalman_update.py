@@ -63,8 +63,8 @@ def after_it(P, H, R, after, new_P):
 
 for slug, says, other in (
     ("surprise-sign",
-     "your update moves the state away from the reading, because the innovation or the "
-     "gain K has the wrong sign. The new state should be x + K (z - H x)",
+     "your code uses the wrong sign for the innovation or the gain, so the update "
+     "moves the state away from the reading. The new state should be x + K (z - H x)",
      {"of": lambda z, Hx: Hx - z}),
     ("R-rooted", "your code uses the square root of R. Use R itself, because R is a "
                  "covariance and not a standard deviation",
