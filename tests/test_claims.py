@@ -212,8 +212,8 @@ def test_two_mistakes_in_answers_of_several_sizes_are_both_told():
 
     says = told(9, "9.5", kalman_update=kalman_update)
     assert says.startswith(
-        "Two mistakes together explain your result. First, your code uses H x - z as "
-        "the innovation"
+        "Two mistakes together explain your result. First, your code uses the wrong "
+        "sign for the innovation"
     )
 
 

@@ -53,37 +53,39 @@ def bias(
 
 @row.wrongs
 def _(J_space, qd, p):
-    """of-the-origin: your code returns only the sum of ad(V) S qd. The linear part of
-      this sum belongs to the world origin, so convert it to the point p
-    no-centripetal: your code omits the term omega x (velocity of p). This term is
+    """of-the-origin: your result is only the sum of ad(V) S qd. The linear part of this
+      sum belongs to the world origin, so convert it to the point p
+    no-centripetal: your result omits the term omega x (velocity of p). This term is
       needed because a point on a circle accelerates towards the centre even at constant
       speed
-    no-alpha-cross-p: your code omits the term alpha x p. This term is needed because
+    no-alpha-cross-p: your result omits the term alpha x p. This term is needed because
       the linear part of the sum of ad(V) S qd belongs to the world origin and not to p
-    velocity-of-origin: your code uses omega x v, where v is the velocity of the
-      body-fixed point that coincides with the world origin. Use the velocity of the
-      point p instead, which is v + omega x p
-    v-forgotten: your code uses omega x p as the velocity of p. Use v + omega x p
-      instead
-    coriolis-twice: your code adds omega x v twice. Add this term only once, because the
-      factor 2 belongs to the Coriolis acceleration in a rotating frame
-    centripetal-twice: your code adds omega x (velocity of p) twice. Add this term only
-      once, because the factor 2 belongs to the Coriolis acceleration in a rotating
+    velocity-of-origin: your result contains omega x v but not omega x (omega x p),
+      where v is the velocity of the body-fixed point that coincides with the world
+      origin. Use the velocity of the point p instead, which is v + omega x p
+    v-forgotten: your result contains omega x (omega x p) but not omega x v. The
+      velocity of p is v + omega x p, where v is the velocity of the body-fixed point
+      that coincides with the world origin
+    coriolis-twice: your result contains omega x v twice. Add this term only once,
+      because the factor 2 belongs to the Coriolis acceleration in a rotating frame
+    centripetal-twice: your result contains omega x (velocity of p) twice. Add this term
+      only once, because the factor 2 belongs to the Coriolis acceleration in a rotating
       frame
-    p-sign: your code swaps the two factors of each cross product with p, which reverses
-      the sign of the product. Use alpha x p and omega x p instead
-    ad-swapped: either your code swaps V and S in ad(V) S, or it sums the twists from
-      the tip instead of the base. Either mistake reverses the sign of the sum of ad(V)
-      S qd
-    ad-transposed: your code uses ad(V)^T, which transforms wrenches. Use ad(V) itself,
-      which transforms screws
-    ad-half: the lower left block of your ad(V) is 0. This block should be [v], because
-      it adds v x omega2 to the linear part of the result for a screw (omega2; v2)
-    twist-of-the-hand: your code uses the twist of the hand for every joint, so your sum
-      is ad(V) V, which is 0. Use the twist of link i for joint i, which depends only on
-      joints 1 to i
-    qd-once: your code does not multiply each screw by the velocity of its joint. Sum
-      ad(V) S qd instead of ad(V) S
+    p-sign: in your result, the terms with p have the wrong sign. Use alpha x p and
+      omega x p, not p x alpha and p x omega, because swapping the factors reverses the
+      sign
+    ad-swapped: in your result, the sum of ad(V) S qd has the wrong sign. Either V and S
+      are swapped in ad(V) S, or the twists are summed from the tip instead of the base
+    ad-transposed: your result contains ad(V)^T S, but ad(V)^T transforms wrenches. Use
+      ad(V) S, because ad(V) transforms screws
+    ad-half: your result omits the term v x omega2 from the linear part of ad(V) S,
+      where S = (omega2; v2). In matrix form, this term is the lower left block [v] of
+      ad(V)
+    twist-of-the-hand: in your result, the sum of ad(V) S qd is 0. Either your code
+      omits this sum, or it uses the twist of the hand for every joint, and ad(V) V is
+      0. Use the twist of link i for joint i, which depends only on joints 1 to i
+    qd-once: your result contains the sum of ad(V) S, without the joint velocities. Sum
+      ad(V) S qd instead, because the twist of joint i is its screw times its velocity
     """
     changed = {
         "of-the-origin": {"turn": 0.0, "centre": 0.0, "move": 0.0},

@@ -43,27 +43,27 @@ def by_modes(K, L):
 def _(K, Lambda):
     """Lambda-ignored: your code returns 2 sqrt(K), which is the critical damping of a
       unit mass. Use the argument `Lambda` as well
-    another-design: your code diagonalises Lambda and K together, which gives another
-      critically damped design. Multiply sqrt(Lambda) and sqrt(K) in both orders, and
-      return the sum of the two products
-    diagonal-only: your code uses 2 sqrt(k m) for each axis, with m from the diagonal of
+    another-design: your result is another critically damped design, in which each mode
+      of Lambda and K is damped separately. Multiply sqrt(Lambda) and sqrt(K) in both
+      orders, and return the sum of the two products
+    diagonal-only: your result is 2 sqrt(k m) for each axis, with m from the diagonal of
       Lambda. Use the matrix square root of Lambda instead, because Lambda couples the
       axes
-    one-order-only: your code adds the same product of sqrt(Lambda) and sqrt(K) twice.
+    one-order-only: your result is twice the same product of sqrt(Lambda) and sqrt(K).
       Add the products in both orders, so that the result is symmetric
-    half-of-it: your code uses only one of the two products of sqrt(Lambda) and sqrt(K).
+    half-of-it: your result is only one of the two products of sqrt(Lambda) and sqrt(K).
       Add the product with the factors in the opposite order
-    factor-two: your code multiplies the result by an extra factor of 2. For scalars k
-      and m, the sum of the two products is already 2 sqrt(k m)
-    factor-two-missing: your code averages the two products of sqrt(Lambda) and sqrt(K).
-      Add the two products instead
-    root-on-both-sides: your code multiplies sqrt(K) by sqrt(Lambda) on both sides, so
-      the result is proportional to the mass. The result should be proportional to the
-      square root of the mass
-    root-of-the-product: your code computes 2 sqrt(K Lambda) entry by entry. Use the
-      matrix square root of Lambda instead
-    cholesky: your code uses a Cholesky factor L, which satisfies L L^T = Lambda. Use
-      the matrix square root X instead, which satisfies X X = Lambda
+    factor-two: your result has an extra factor of 2. For scalars k and m, the sum of
+      the two products is already 2 sqrt(k m)
+    factor-two-missing: your result is the mean of the two products of sqrt(Lambda) and
+      sqrt(K). Return the sum of the two products instead
+    root-on-both-sides: your result is 2 sqrt(Lambda) sqrt(K) sqrt(Lambda), so it is
+      proportional to the mass. The result should be proportional to the square root of
+      the mass
+    root-of-the-product: each entry of your result is twice the square root of the entry
+      of K Lambda. Use the matrix square root of Lambda instead
+    cholesky: your result contains a Cholesky factor L, which satisfies L L^T = Lambda.
+      Use the matrix square root X instead, which satisfies X X = Lambda
     """
     k = np.sqrt(K)
     half = root(Lambda)
@@ -84,21 +84,20 @@ def _(K, Lambda):
 
 @row.wrongs
 def _(K, Lambda):
-    """entries-square-rooted: your code uses `np.sqrt`, which takes the square root of
-      each entry of Lambda. Use the matrix square root X instead, which satisfies X X =
-      Lambda
-    eigenvectors-transposed: your code transposes V, the matrix whose columns are the
-      eigenvectors. The square root is V diag(sqrt(values)) V^T
-    eigenvalues-not-rooted-back: your code uses diag(sqrt(values)) as the square root,
-      which is expressed in the basis of the eigenvectors. Transform this matrix back
-      with V, the matrix whose columns are the eigenvectors
-    cholesky: your code uses a Cholesky factor L, which satisfies L L^T = Lambda. Use
-      the matrix square root X instead, which satisfies X X = Lambda
-    entries-square-rooted 2: your code takes the square root of the absolute value of
-      each entry of Lambda. Use the matrix square root X instead, which satisfies X X =
-      Lambda
-    eigenvectors-transposed 2: your code omits the last transpose. The square root is V
-      diag(sqrt(values)) V^T, where the columns of V are the eigenvectors
+    """entries-square-rooted: your result contains the square root of each entry of
+      Lambda. Use the matrix square root X instead, which satisfies X X = Lambda
+    eigenvectors-transposed: your square root of Lambda is V^T diag(sqrt(values)) V. It
+      should be V diag(sqrt(values)) V^T, where the columns of V are the eigenvectors
+    eigenvalues-not-rooted-back: your square root of Lambda is diag(sqrt(values)), which
+      is expressed in the basis of the eigenvectors. Transform this matrix back with V,
+      the matrix whose columns are the eigenvectors
+    cholesky: your result contains a Cholesky factor L, which satisfies L L^T = Lambda.
+      Use the matrix square root X instead, which satisfies X X = Lambda
+    entries-square-rooted 2: your result contains the square root of the absolute value
+      of each entry of Lambda. Use the matrix square root X instead, which satisfies X X
+      = Lambda
+    eigenvectors-transposed 2: your square root of Lambda is V diag(sqrt(values)) V. It
+      should be V diag(sqrt(values)) V^T, where the columns of V are the eigenvectors
     """
     values, V = np.linalg.eigh(Lambda)
     roots = {

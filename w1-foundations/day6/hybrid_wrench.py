@@ -38,15 +38,16 @@ def _(e, V_err, K, D, force):
       force along z
     moment-in-place-of-force: your code changes entry 2, which is the moment about z.
       Change entry 5 instead, which is the force along z
-    spring-everywhere: your code does not use the argument `force`, so the result is the
+    spring-everywhere: your result does not depend on `force`, because it is the
       impedance wrench in all six directions. Replace the spring force along z with
       `-force`
     along-x: your code applies `force` along x. The force should act along z
     spring-couples-into-z: your code removes only the contribution of the error along z
       from the spring force along z. The other five errors also contribute to this
       force, so remove the whole last entry of K e
-    column-in-place-of-row: your code sets the error along z to 0, so it ignores the
-      last column of K. Remove the spring force along z instead, which is `K[5] @ e`
+    column-in-place-of-row: your result ignores the error along z in all six directions,
+      so the last column of K has no effect. Remove the spring force along z instead,
+      which is `K[5] @ e`
     """
     spring, damper = K @ e, D @ V_err
     both = spring + damper
@@ -65,12 +66,12 @@ def _(e, V_err, K, D, force):
 
 @row.wrongs
 def _(e, V_err, K, D, force):
-    """moment-in-place-of-force: your code writes the force to entry 2, which is the
+    """moment-in-place-of-force: your result has the force in entry 2, which is the
       moment about z, and omits the damping term of this entry. Change entry 5 instead,
       which is the force along z, and keep the damping term
-    column-in-place-of-row: your code removes the last row and the last column of K.
-      Remove only the last row, because an error along z should still contribute to the
-      other five directions
+    column-in-place-of-row: your result omits the spring force along z and also ignores
+      the error along z in the other five directions. Remove only the spring force along
+      z, because an error along z should still contribute to the other five directions
     """
     return {
         "moment-in-place-of-force": at(MOMENT_Z, -force, K @ e + D @ V_err),

@@ -29,16 +29,16 @@ def _(rng):
 
 @row.wrongs
 def _(J, wrench, bias, damping, qd, tau_null):
-    """damping-summed: your code computes the dot product `damping @ qd`, which sums
-      over the joints. Multiply entry by entry instead
+    """damping-summed: your result adds the sum of all damping torques to every joint.
+      Multiply `damping` and `qd` entry by entry instead
     bias-sign: your code subtracts `bias`. Add `bias` instead, because the motors must
       supply this torque even at zero acceleration
     damping-sign: your code subtracts the damping torque. Add `damping * qd` instead,
       because damping opposes the motion and the motors must compensate for it
-    bias-six-times: your code adds `bias` once for each of the six rows of J. Add `bias`
-      only once
-    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T
-      instead, because J^T maps wrenches to torques
+    bias-six-times: your result contains `bias` six times, for example once for each of
+      the six rows of J. Add `bias` only once
+    pinv-for-transpose: your result contains pinv(J) times the wrench. Use J^T instead,
+      because J^T maps wrenches to torques
     """
     push = J.T @ wrench
     rub = damping * qd

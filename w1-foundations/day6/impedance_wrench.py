@@ -14,9 +14,9 @@ row.inputs(springs)
 
 @row.wrongs
 def _(e, V_err, K, D):
-    """diagonals: your code uses only the diagonals of K and D. Use the whole matrices,
-      because the six directions are coupled
-    millimetres: your code converts the linear error to millimetres. Use metres, because
+    """diagonals: your result depends only on the diagonals of K and D. Use the whole
+      matrices, because the six directions are coupled
+    millimetres: in your result, the linear error is in millimetres. Use metres, because
       the linear stiffness in K is in N/m
     """
     return {

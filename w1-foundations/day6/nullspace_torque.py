@@ -24,8 +24,9 @@ def damped(case: Case) -> Finding | None:
 
 
 DAMPED = (
-    "Your code adds a number to the diagonal of J M^-1 J^T, so part of the torque "
-    "still accelerates the hand. Use the argument Lambda."
+    "Your result contains the inverse of J M^-1 J^T with a number added to its "
+    "diagonal, so part of the torque still accelerates the hand. Use the argument "
+    "Lambda."
 )
 # One matrix with two readings: J^T pinv(J^T) is J^+ J.
 row = Row(TORQUE, alike=[{"pinv-of-transpose", "kinematic-projector"}], unnamed=damped)
@@ -42,25 +43,27 @@ def _(J, M, Lambda, tau):
     """another-projector: your result does not accelerate the hand, but it is the wrong
       projection of `tau`. Subtract J^T times a wrench from `tau`, and compute this
       wrench with Lambda
-    acceleration: your code returns the joint acceleration that the correct torque
-      causes. Multiply this acceleration by M to obtain the torque
+    acceleration: your result is the joint acceleration that the correct torque causes.
+      Multiply this acceleration by M to obtain the torque
     not-projected: your code returns `tau` unchanged, so your result also accelerates
       the hand. Subtract the part of `tau` that accelerates the hand
-    kinematic-projector: your code uses `I - J^+ J`, which is the projector for joint
-      velocities. Use the projector for torques instead, which also depends on M
-    M-for-identity: your code multiplies `tau` by M before the subtraction. Subtract
-      from `tau` itself, because M tau is not a torque
-    projector-transposed: your code subtracts M^-1 J^T Lambda J tau from `tau`. Subtract
-      J^T Lambda J M^-1 tau instead, because J M^-1 tau is the hand acceleration that
-      `tau` causes
-    the-other-part: your code returns the part of `tau` that accelerates the hand.
-      Subtract this part from `tau`
-    position-only: your code removes only the linear acceleration of the hand, so the
+    kinematic-projector: your result is (I - J^+ J) tau, but I - J^+ J is the projector
+      for joint velocities. Use the projector for torques instead, which also depends on
+      M
+    M-for-identity: your result is M tau minus the part of `tau` that accelerates the
+      hand. Subtract this part from `tau` itself, because M tau is not a torque
+    projector-transposed: your result is tau - M^-1 J^T Lambda J tau. Subtract J^T
+      Lambda J M^-1 tau from `tau` instead, because J M^-1 tau is the hand acceleration
+      that `tau` causes
+    the-other-part: your result is the part of `tau` that accelerates the hand. Subtract
+      this part from `tau`
+    position-only: your result removes only the linear acceleration of the hand, so the
       hand still rotates. Remove the angular acceleration too
-    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T
-      instead, because J^T maps wrenches to torques
-    pinv-of-transpose: your code uses `I - J^T pinv(J^T)`, which is the projector for
-      joint velocities. Use the projector for torques instead, which also depends on M
+    pinv-for-transpose: your result subtracts pinv(J) times the wrench from `tau`.
+      Subtract J^T times the wrench instead, because J^T maps wrenches to torques
+    pinv-of-transpose: your result is (I - J^T pinv(J^T)) tau, but I - J^T pinv(J^T) is
+      the projector for joint velocities. Use the projector for torques instead, which
+      also depends on M
     """
     acc = solve(M, tau)
     a = J @ acc

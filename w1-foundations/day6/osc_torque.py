@@ -30,20 +30,18 @@ def _(rng):
 def _(J, Lambda, bias, bias_acc, acc):
     """bias-sign: your code subtracts `bias`. Add `bias` instead, because the motors
       must supply this torque even at zero acceleration
-    pinv-for-transpose: your code maps the wrench to the joints with pinv(J). Use J^T
-      instead, because J^T maps wrenches to torques
-    site-bias-not-weighed: your code subtracts `bias_acc` after the multiplication by
-      Lambda. Subtract `bias_acc` from `acc` before this multiplication, because
-      `bias_acc` is an acceleration
-    acc-sign: your code computes `bias_acc - acc`, so the hand accelerates in the
-      opposite direction. Compute `acc - bias_acc` instead
+    pinv-for-transpose: your result contains pinv(J) times the wrench. Use J^T instead,
+      because J^T maps wrenches to torques
+    site-bias-not-weighed: your wrench is Lambda acc - bias_acc. It should be Lambda
+      (acc - bias_acc), because `bias_acc` is an acceleration
+    acc-sign: your result has the torque for `bias_acc - acc`, so the hand accelerates
+      in the opposite direction. Use `acc - bias_acc`, and check the sign of the wrench
     force-alone: your code applies only the force and omits the moment. Use all six
       columns of J^T, because the first three belong to the moment
     halves-swapped: your code uses accelerations in the order (linear; angular). The
       angular part should come first
-    bias-at-the-hand: your code adds J times `bias` to the wrench before the
-      multiplication by J^T. The argument `bias` is already a joint torque, so add
-      `bias` after this multiplication
+    bias-at-the-hand: your result contains J^T J times `bias`. Add `bias` unchanged
+      instead, because it is already a joint torque
     """
     own = acc - bias_acc
     push = J.T @ Lambda @ own

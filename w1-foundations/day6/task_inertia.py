@@ -21,7 +21,7 @@ def damped(case: Case) -> Finding | None:
 
 
 DAMPED = (
-    "Your code adds a number to the diagonal of J M^-1 J^T before the inversion. "
+    "Your result is the inverse of J M^-1 J^T with a number added to its diagonal. "
     "Omit this number, because it makes Lambda too small."
 )
 NEARLY_SINGULAR = HeldOut(
@@ -54,22 +54,22 @@ def inertia(J: Array, M: Array) -> Array:
 def _(J, M):
     """inverse-forgotten: your code returns the inverse of Lambda, which maps a wrench
       to an acceleration. Lambda should map an acceleration to a wrench
-    M-not-inverted: your code uses J M J^T. Use M^-1 instead of M, because M^-1 maps the
-      joint torques J^T F to joint accelerations
+    M-not-inverted: your result is J M J^T. Lambda should be the inverse of J M^-1 J^T,
+      because M^-1 maps the joint torques J^T F to joint accelerations
     pinv-both-sides: your code returns pinv(J)^T M pinv(J), which is correct only for an
       arm with six joints. Invert J M^-1 J^T instead, because the seventh joint also
       allows internal motions, which reduce the inertia at the hand
-    armature-left-out: your code subtracts the armature (the rotor inertia of the
-      motors) from M. Use M unchanged, because the rotors contribute to the inertia at
-      the hand
-    armature-twice: your code adds the armature to M. Use M unchanged, because M already
-      contains the armature
-    diagonal-inverted: your code inverts only the diagonal of J M^-1 J^T. The six
-      directions are coupled, so invert the whole matrix
-    entries-inverted: your code takes the reciprocal of each entry of J M^-1 J^T. Use
-      the matrix inverse instead
-    blocks-alone: your code inverts the two 3x3 diagonal blocks of J M^-1 J^T
-      separately. A force also rotates the hand, so invert the whole 6x6 matrix
+    armature-left-out: your result omits the armature (the rotor inertia of the motors).
+      Use M unchanged, because the rotors contribute to the inertia at the hand
+    armature-twice: your result contains the armature twice. Use M unchanged, because M
+      already contains the armature
+    diagonal-inverted: your result is the inverse of only the diagonal of J M^-1 J^T.
+      The six directions are coupled, so invert the whole matrix
+    entries-inverted: each entry of your result is the reciprocal of the entry of J M^-1
+      J^T. Use the matrix inverse instead
+    blocks-alone: your result contains the separate inverses of the two 3x3 diagonal
+      blocks of J M^-1 J^T. A force also rotates the hand, so invert the whole 6x6
+      matrix
     """
     A = J @ np.linalg.solve(M, J.T)
     back = np.linalg.pinv(J)

@@ -44,11 +44,12 @@ def _(T_world_cube, above):
       not change a cube
     folded-to-90: your code reduces the yaw to an angle between 0 and 90 degrees. Reduce
       the yaw to an angle between -45 and 45 degrees instead
-    rounded-towards-zero: your code rounds the number of quarter turns towards 0, so a
-      yaw of up to 90 degrees remains. Round this number to the nearest integer instead
-    folded-by-half-turns: your code subtracts multiples of 180 degrees from the yaw.
-      Subtract multiples of 90 degrees instead, because a rotation by 90 degrees does
-      not change a cube
+    rounded-towards-zero: in your result, the number of quarter turns is rounded towards
+      0, as by `int` or `fmod`, so a yaw of up to 90 degrees remains. Round this number
+      to the nearest integer instead
+    folded-by-half-turns: your tool has a yaw between -90 and 90 degrees. Use a yaw
+      between -45 and 45 degrees instead, because a rotation by 90 degrees does not
+      change a cube
     yaw-forgotten: your code gives the tool a yaw of 0 for every cube. Use the yaw of
       the cube, reduced to an angle between -45 and 45 degrees
     turned-the-wrong-way: your code rotates the tool in the opposite direction to the
@@ -71,9 +72,10 @@ def _(T_world_cube, above):
 def _(T_world_cube, above):
     """tool-up: your code returns a pose in which the z axis of the tool points up.
       Rotate the tool by 180 degrees about its x axis, so that its z axis points down
-    about-y: your code rotates the tool by 180 degrees about its y axis. Rotate the tool
-      about its x axis instead, so that at yaw 0 the tool's x axis is parallel to the
-      world x axis
+    about-y: your tool is rotated by 180 degrees about the vertical. Either the yaw is
+      off by 180 degrees, or your code rotates the tool about its y axis to point it
+      down. Rotate it about its x axis instead, so that at yaw 0 the tool's x axis has
+      the direction of the world x axis
     left-handed: your code reverses only the z axis, so the matrix is a reflection with
       determinant -1. Reverse the y axis as well, because a rotation matrix has
       determinant 1

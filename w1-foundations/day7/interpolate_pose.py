@@ -60,23 +60,24 @@ def _(T0, T1, s):
     """by-entries: your code interpolates the entries of R0 and R1 linearly, so the
       result between the two ends is not a rotation matrix. Multiply the angle of the
       rotation from R0 to R1 by s instead
-    entries-made-a-rotation: your code computes the rotation matrix nearest to the
+    entries-made-a-rotation: your orientation is the rotation matrix nearest to the
       linear interpolation of R0 and R1, so the angular velocity is not constant.
       Multiply the angle of the rotation from R0 to R1 by s instead
-    nlerp: your code interpolates the quaternions linearly and normalises the result, so
-      the angular velocity is not constant. Multiply the angle of the rotation from R0
-      to R1 by s instead
-    turn-in-world-axes: your code multiplies R0 from the right by a rotation that it
-      computes from R1 R0^T. The axis of R1 R0^T is expressed in the world frame, so
-      multiply R0 from the left
-    turn-on-the-left: your code multiplies R0 from the left by a rotation that it
-      computes from R0^T R1. The axis of R0^T R1 is expressed in the frame of T0, so
-      multiply R0 from the right
-    turn-backwards: your code uses R1^T R0, which is the rotation from R1 to R0. Use
-      R0^T R1, the rotation from R0 to R1, instead
-    logarithms-mixed: your code interpolates linearly between the rotation vectors of R0
-      and R1. Multiply the rotation vector of the rotation from R0 to R1 by s instead,
-      because rotations about different axes do not add
+    nlerp: your orientation is the normalised linear interpolation of the two
+      quaternions, so the angular velocity is not constant. Multiply the angle of the
+      rotation from R0 to R1 by s instead
+    turn-in-world-axes: your orientation is R0 times a rotation about the axis of R1
+      R0^T. This axis is expressed in the world frame, so the rotation should multiply
+      R0 from the left
+    turn-on-the-left: your orientation is a rotation about the axis of R0^T R1, times
+      R0. This axis is expressed in the frame of T0, so the rotation should multiply R0
+      from the right
+    turn-backwards: your orientation rotates away from R1. Either your code uses R1^T R0
+      instead of R0^T R1, which is the rotation from R0 to R1, or the angle has the
+      wrong sign
+    logarithms-mixed: your orientation is the linear interpolation of the rotation
+      vectors of R0 and R1. Multiply the rotation vector of the rotation from R0 to R1
+      by s instead, because rotations about different axes do not add
     not-turned: your code returns the orientation R0 for every s. The orientation should
       change from R0 at s = 0 to R1 at s = 1
     turned-at-once: your code returns the orientation R1 for every s. Multiply the angle

@@ -33,17 +33,17 @@ def _(q0, q1, t, T):
       Add q0 only to the position, because the derivatives of the constant q0 are 0
     goal-for-way: your code uses q1 as the displacement, so the motion ends at q0 + q1.
       Use q1 - q0 instead
-    way-reversed: your code uses the displacement q0 - q1, so the arm moves away from
-      the goal. Use q1 - q0 instead
-    speed-forwards-only: your code uses the absolute value of the displacement, so every
-      joint moves in the positive direction. Keep the sign of the displacement
+    way-reversed: your displacement has the wrong sign, so the arm moves away from the
+      goal. Use q1 - q0
+    speed-forwards-only: in your result, every joint moves in the positive direction.
+      Keep the sign of the displacement q1 - q0
     rates-without-way: your code returns sd and sdd as the velocity and the acceleration
       of every joint. Multiply both by the joint's displacement
-    rates-of-the-goal: your code multiplies sd and sdd by q1. Multiply both by the
-      displacement q1 - q0 instead
-    rates-divided-again: your code divides the velocity and the acceleration by powers
-      of the duration. Omit these divisions, because sd and sdd are already derivatives
-      with respect to t
+    rates-of-the-goal: your velocity and acceleration are sd q1 and sdd q1. Multiply sd
+      and sdd by the displacement q1 - q0 instead
+    rates-divided-again: your velocity and acceleration are divided by powers of the
+      duration once too often. The results sd and sdd of `quintic_scaling` are already
+      derivatives with respect to t
     q-wrapped: your code wraps the angles to [-pi, pi]. Return the angles unchanged,
       because the angle of a joint with limits is not periodic. For example, joint6 can
       move to 3.75 rad

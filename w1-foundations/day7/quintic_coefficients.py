@@ -48,8 +48,8 @@ def which_condition(case: Case) -> Finding | None:
     return Finding(
         "one-condition-not-kept",
         "Your polynomial satisfies five of the six conditions, but not the condition "
-        f"for {which}. Check the row of your matrix and the entry of the "
-        "right-hand side for this condition.",
+        f"for {which}. Check this condition. In a linear system, it is one row of the "
+        "matrix and one entry of the right-hand side.",
     )
 
 
@@ -74,20 +74,20 @@ def _(rng):
 def _(start, end, T):
     """in-powers-of-x: your code returns the coefficients of the powers of t / duration.
       Return the coefficients of the powers of t instead
-    T-is-1: your code uses t = 1 in the conditions at the end, so the duration has no
-      effect. Use t = duration instead
-    cubic: your code uses a cubic, which does not satisfy the two conditions for the
+    T-is-1: your result is the polynomial for a duration of 1 s, so the duration has no
+      effect. The conditions at the end hold at t = duration
+    cubic: your polynomial is a cubic, which does not satisfy the two conditions for the
       accelerations. Use a polynomial of degree 5 instead, because it has six
       coefficients for the six conditions
-    accelerations-zero: your code sets the accelerations at both ends to 0. Use the
+    accelerations-zero: your polynomial has an acceleration of 0 at both ends. Use the
       accelerations in `start` and `end` instead
-    rest-to-rest: your code sets the velocities and the accelerations at both ends to 0.
+    rest-to-rest: your polynomial has a velocity and an acceleration of 0 at both ends.
       Use the values in `start` and `end` instead
     two-forgotten: your coefficient of t^2 is the initial acceleration. It should be
       half of it, because the second derivative of t^2 is 2
-    conditions-mixed-up: your right-hand side alternates between `start` and `end`, but
-      the rows of your matrix do not. Use the same order in the matrix and in the
-      right-hand side
+    conditions-mixed-up: your polynomial has the six values of `start` and `end` in the
+      wrong places, because `start` and `end` alternate. The three values of `start`
+      belong to t = 0, and the three values of `end` belong to t = duration
     """
     A = conditions(T)
     four = np.linalg.solve(A[[0, 1, 3, 4], :4], [*start[:2], *end[:2]])

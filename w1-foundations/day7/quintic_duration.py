@@ -71,17 +71,18 @@ def _(delta_q, v_max, a_max):
 
 @row.wrongs
 def _(delta_q, v_max, a_max):
-    """peak-of-the-cubic: your code uses 1.5, which is the maximum velocity of the cubic
-      scaling. Use the maximum velocity of the quintic instead. This maximum occurs at
-      half the duration
-    peak-of-the-cubic 2: your code uses 6, which is the maximum acceleration of the
-      cubic scaling. Use the maximum acceleration of the quintic instead. This maximum
+    """peak-of-the-cubic: your result uses 1.5 as the maximum velocity of the scaling,
+      as for the cubic. Use the maximum velocity of the quintic instead. This maximum
+      occurs at half the duration
+    peak-of-the-cubic 2: your result uses 6 as the maximum acceleration of the scaling,
+      as for the cubic. Use the maximum acceleration of the quintic instead. This
+      maximum occurs where the derivative of the acceleration is 0
+    peak-of-the-cubic 3: your result uses 1.5 and 6 as the maximum velocity and
+      acceleration of the scaling, as for the cubic. Use the two maxima of the quintic
+      instead
+    peak-at-a-quarter: your result uses 5.625 as the maximum acceleration of the
+      scaling, which is the acceleration at a quarter of the duration. The maximum
       occurs where the derivative of the acceleration is 0
-    peak-of-the-cubic 3: your code uses 1.5 and 6, which are the maximum velocity and
-      acceleration of the cubic scaling. Use the two maxima of the quintic instead
-    peak-at-a-quarter: your code uses 5.625, which is the acceleration at a quarter of
-      the duration. Use the maximum acceleration instead. This maximum occurs where the
-      derivative of the acceleration is 0
     """
     peaks = {
         "peak-of-the-cubic": {"speed": 1.5},

@@ -100,8 +100,9 @@ def _(t, L, v, a):
 
 @row.wrongs
 def _(t, L, v, a):
-    """ramps-way-forgotten: your code starts the constant-velocity phase at position 0.
-      This phase should start at the position where the acceleration phase ends
+    """ramps-way-forgotten: in your result, the constant-velocity phase starts at
+      position 0. This phase should start at the position where the acceleration phase
+      ends
     does-not-stop: your code continues the deceleration after the end, so the arm moves
       backwards. The arm should be at rest at position L instead
     does-not-wait: your code uses the formulas of the acceleration phase for t < 0.

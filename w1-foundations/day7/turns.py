@@ -61,23 +61,23 @@ TURNS = [
         "wrong-at-pi",
         "Your function is correct except for rotations by 180 degrees or slightly "
         "less. For such a rotation R = R0^T R1, the matrix R - R^T is nearly 0 and "
-        "does not determine the axis. Use R + R^T instead, because it determines the "
-        "axis up to its sign.",
+        "does not determine the axis, but R + R^T determines the axis up to its sign.",
         _half_or_nearly,
     ),
     HeldOut(
         "small-turn-for-none",
         "Your function is correct except for very small rotations, where the "
-        "orientation remains R0. Below which angle does your function skip the "
-        "rotation?",
+        "orientation remains R0. Either your function skips the rotation below some "
+        "angle, or rounding makes the angle 0.",
         lambda rng: _small(rng, (TINY,)),
         mistaken=_not_turned,
         near=1e-9,
     ),
     HeldOut(
         "wrong-near-0",
-        "Your function is correct except for rotations by 2 degrees or less. Which "
-        "special case of your function handles such small angles?",
+        "Your function is correct except for rotations by 2 degrees or less. Either a "
+        "special case for small angles is wrong, or the angle has a rounding error, "
+        "for example because arccos is inaccurate near 1.",
         _small,
     ),
 ]

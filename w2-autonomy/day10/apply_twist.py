@@ -71,9 +71,9 @@ def _(T, xi):
       instead
     identity-where-still: your code returns the identity matrix for xi = 0. Return T
       instead
-    turns-only: your code does not use v, the linear part of xi. Use the exponential of
-      the whole twist
-    slides-only: your code does not use omega, the angular part of xi. Use the
+    turns-only: your result does not depend on v, the linear part of xi. Use the
+      exponential of the whole twist
+    slides-only: your result does not depend on omega, the angular part of xi. Use the
       exponential of the whole twist
     """
     E = exp_of(xi)

@@ -62,8 +62,8 @@ for slug, says, other in (
      "camera's z axis",
      {"ray": unit_ray}),
     ("K-for-its-inverse",
-     "your code multiplies the pixel by K. Multiply the pixel by the inverse of K "
-     "instead, because K maps points to pixels",
+     "your result uses K instead of the inverse of K. Multiply the pixel by the "
+     "inverse of K, because K maps points to pixels",
                           {"ray": lambda K, h, d: h @ K.T}),
     ("centre-forgotten",
      "your code does not subtract the principal point from the pixel. Subtract the "
@@ -116,13 +116,13 @@ for slug, says, other in (
      "your code adds the depth to z. Multiply the whole ray by the depth instead",
      {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
     ("depth-in-the-pixel",
-     "your code uses (u, v, depth) as the homogeneous pixel. Use (u, v, 1) instead, "
-     "and multiply K^-1 (u, v, 1) by the depth",
+     "your x and y contain u - cx depth and v - cy depth, as from K^-1 (u, v, depth). "
+     "Use K^-1 (u, v, 1) instead, and multiply it by the depth",
      {"ray": lambda K, h, d: right_ray(K, h * [1, 1, 0] + d * [0, 0, 1]),
       "scaled": not_scaled}),
     ("moved-before-scaled",
-     "your code transforms the ray before it multiplies the ray by the depth, so the "
-     "depth also scales the translation. Multiply by the depth first",
+     "in your result, the depth also scales the translation. Multiply the ray by the "
+     "depth first, and then apply T_world_cam",
      {"scaled": not_scaled, "moved": lambda R, t, p, d: d * (p @ R.T + t)}),
     ("T-forgotten",
      "your code returns the points in the camera frame. Transform the points to the "
@@ -130,8 +130,8 @@ for slug, says, other in (
     ("half-inverted", "your code computes R^T p - t, which is neither T p nor T^-1 p. "
                       "Compute T p as R p + t",
      {"moved": lambda R, t, p, d: p @ R - t}),
-    ("t-before-R", "your code adds the translation before it rotates the point. "
-                   "Rotate the point first, because T p is R p + t",
+    ("t-before-R",
+     "your code computes R (p + t). Rotate the point first, because T p is R p + t",
      {"moved": lambda R, t, p, d: (p + t) @ R.T}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(placed, **other))

@@ -41,8 +41,9 @@ def _(fovy, width, height):
       height / 2) instead, which is the centre of the image
     y-up: your code returns a negative fy. The focal length fy should be positive,
       because v and y both point down
-    whole-division: your code divides with //, which rounds down. Divide with / instead,
-      because the centre of an image that is 353 pixels wide is at 176.5
+    whole-division: your code rounds down half the width and half the height, as //
+      does. Divide with / instead, because the centre of an image that is 353 pixels
+      wide is at 176.5
     """
     f = height / 2 / np.tan(fovy / 2)
     fw = width / 2 / np.tan(fovy / 2)

@@ -109,17 +109,19 @@ def solved(
 
 for slug, says, other in (
     ("mirror",
-     "your code does not check the determinant of U V^T. If the determinant is -1, "
-     "negate the singular vector in U that belongs to the smallest singular value",
+     "your R is a reflection if the determinant of U V^T is -1, where U S V^T is the "
+     "SVD of the sum of a b^T. In this case, negate the singular vector in U that "
+     "belongs to the smallest singular value",
      {"turn": partial(turns, rotation=lambda U, Vt: U @ Vt)}),
     ("mirror-turned-round",
-     "your code negates all of U V^T if this product is a reflection. Negate only the "
-     "singular vector in U that belongs to the smallest singular value",
+     "if U V^T is a reflection, your R is -U V^T, where U S V^T is the SVD of the sum "
+     "of a b^T. Negate only the singular vector in U that belongs to the smallest "
+     "singular value",
      {"turn": partial(turns, rotation=all_turned)}),
     ("R-transposed",
-     "your code returns the transposed rotation. Use the SVD of the sum of a b^T, so "
-     "that the rotation maps the camera's rotation vectors b to the hand's rotation "
-     "vectors a",
+     "your code returns the transposed rotation. R should be U D V^T for the SVD of "
+     "the sum of a b^T, where D = diag(1, 1, det U V^T), because R maps the camera's "
+     "rotation vectors b to the hand's rotation vectors a",
      {"turn": lambda A, B: turns(A, B).T}),
     ("centred",
      "your code subtracts the means of the rotation vectors. Use the rotation vectors "
@@ -154,9 +156,9 @@ for slug, says, other in (
 
 @row.wrongs
 def _(A, B):
-    """t-of-the-mean: your code solves for t separately for each motion and returns the
-      mean. A single motion does not determine t along the rotation axis of that motion,
-      so stack the equations of all motions
+    """t-of-the-mean: your t is the mean of the solutions for the individual motions. A
+      single motion does not determine t along the rotation axis of that motion, so
+      stack the equations of all motions
     centred-the-other-way: your code subtracts the means of the rotation vectors and
       fits the rotation from a to b. Fit the rotation from b to a without subtracting
       the means, because a = R b has no translation

@@ -40,7 +40,8 @@ def once_each(away):
 @row.wrongs
 def _(T, source, target):
     """step-alone: your code returns the motion that is fitted to the source points
-      after T has moved them. Fit the motion to the original source points instead
+      after T has moved them. Fit the motion to the original source points instead, or
+      multiply T by the step from the left
     step-on-the-right: your code multiplies T by the step from the right. Multiply T
       from the left instead, because the step is applied after T
     step-twice: your code multiplies the fitted motion by T. Omit T, because the motion

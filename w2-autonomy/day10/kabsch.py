@@ -65,30 +65,34 @@ def all_turned(U, Vt):
 
 for slug, says, other in (
     ("mirror",
-     "your code does not check the determinant of U V^T. If the determinant is -1, "
-     "negate the singular vector in U that belongs to the smallest singular value",
+     "your R is a reflection if the determinant of U V^T is -1, where U S V^T is the "
+     "SVD of target^T source. In this case, negate the singular vector in U that "
+     "belongs to the smallest singular value",
                {"rotation": lambda U, Vt: U @ Vt}),
     ("mirror-turned-round",
-     "your code negates all of U V^T if this product is a reflection. Negate only the "
-     "singular vector in U that belongs to the smallest singular value",
+     "if U V^T is a reflection, your R is -U V^T, where U S V^T is the SVD of target^T "
+     "source. Negate only the singular vector in U that belongs to the smallest "
+     "singular value",
      {"rotation": all_turned}),
     ("largest-turned-round",
-     "your code corrects a reflection by negating the singular vector of the largest "
-     "singular value. Negate the singular vector of the smallest singular value "
+     "if U V^T is a reflection, your R has the singular vector of the largest singular "
+     "value negated. Negate the singular vector of the smallest singular value "
      "instead, because this choice increases the sum of squared distances least",
      {"rotation": lambda U, Vt: U @ np.diag(
          [np.linalg.det(U @ Vt), 1, 1]) @ Vt}),
     ("column-turned-round",
-     "your code corrects a reflection by negating the third column of V^T. Negate the "
-     "third row instead, because the singular vectors are the rows of V^T",
+     "if U V^T is a reflection, your R is U V^T with its third column negated. Negate "
+     "the third row of V^T before the product instead, because the singular vectors "
+     "are the rows of V^T",
      {"rotation": lambda U, Vt: U @ Vt @ np.diag([1, 1, np.linalg.det(U @ Vt)])}),
     ("always-turned-round",
-     "your code always negates the third singular vector. Negate this vector only if U "
-     "V^T is a reflection",
+     "your R always has the third singular vector negated. Negate this vector only if "
+     "U V^T is a reflection",
      {"rotation": lambda U, Vt: U @ np.diag([1, 1, -1]) @ Vt}),
     ("R-transposed",
      "your code returns the transposed rotation, which maps the target to the source. "
-     "Use U V^T from the SVD of target^T source, with both clouds centred",
+     "R should be U D V^T for the SVD of target^T source with both clouds centred, "
+     "where D = diag(1, 1, det U V^T)",
      {"rotation": lambda U, Vt: proper(U, Vt).T}),
     ("worst-fit",
      "your code returns the rotation with the largest sum of squared distances, not "
@@ -96,21 +100,22 @@ for slug, says, other in (
      "smallest eigenvalue",
      {"rotation": lambda U, Vt: proper(-U, Vt)}),
     ("not-centred",
-     "your code does not subtract the centroids before the SVD. Subtract the "
-     "centroids, because otherwise the translation affects the fitted rotation",
+     "your rotation is fitted to points without their centroids subtracted. Subtract "
+     "the centroids first, because otherwise the translation affects the fitted "
+     "rotation",
      {"centre": lambda X: np.zeros(3)}),
     ("one-number-for-the-centre",
      "your code uses the mean of all coordinates, a single number, as the centroid. "
      "Use axis=0 to compute one mean for each coordinate",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
     ("about-the-first",
-     "your code subtracts the first point of each cloud before the SVD. Subtract the "
-     "centroids instead, because otherwise the noise of the first pair affects the "
-     "whole fit",
+     "your rotation is fitted to the offsets from the first point of each cloud. Use "
+     "the offsets from the centroids instead, because otherwise the noise of the first "
+     "pair affects the whole fit",
      {"centre": lambda X: X[0]}),
     ("scaled",
-     "your code includes a scale factor in R. Return a pure rotation instead, because "
-     "a rigid motion preserves distances",
+     "your R contains a scale factor. Return a pure rotation instead, because a rigid "
+     "motion preserves distances",
      {"scale": lambda s, source: s.sum() / np.sum(source * source)}),
     ("t-turned-too",
      "your code uses the translation R (b - a), where a and b are the centroids of "

@@ -48,8 +48,9 @@ for slug, says, other in (
                           "the sum over all coordinates",
      {"share": lambda n: 1 / n}),
     ("reshaped-across",
-     "your code reshapes J to (6, 2 n), which mixes entries from different rows. "
-     "Reshape J to (2 n, 6) instead, with one row for each pixel coordinate",
+     "your result is the covariance for J reshaped to (6, 2 n), which mixes entries "
+     "from different rows. Reshape J to (2 n, 6) instead, with one row for each pixel "
+     "coordinate",
      {"rows": lambda J: J.reshape(6, -1).T}),
     ("u-alone",
      "your code uses only the rows for u. Use the rows for v as well, because they "
@@ -58,11 +59,11 @@ for slug, says, other in (
      "your code uses only the rows for v. Use the rows for u as well, because they "
      "also contain information about the pose", {"rows": lambda J: J[:, 1]}),
     ("sigma-for-variance",
-     "your code takes the square root of each entry of the covariance. Omit the square "
+     "each entry of your result is the square root of the correct one. Omit the square "
      "root, because a covariance contains variances, for example in rad^2",
      {"told": lambda C: np.sqrt(np.abs(C))}),
     ("sigma-for-variance",
-     "your code takes the square root of each entry of the covariance. Omit the square "
+     "each entry of your result is the square root of the correct one. Omit the square "
      "root, because a covariance contains variances, for example in rad^2",
                            {"told": np.sqrt}),
 ):  # fmt: skip

@@ -59,15 +59,15 @@ for slug, says, other in (
                       "Compute T p as R p + t",
      {"moved": lambda R, t, x: x @ R - t}),
     ("T-forgotten",
-     "your code does not use T_cam_world. First transform the points to the camera "
-     "frame, because they are given in the world frame",
+     "your result does not depend on T_cam_world. First transform the points to the "
+     "camera frame, because they are given in the world frame",
      {"moved": lambda R, t, x: x}),
-    ("t-before-R", "your code adds the translation before it rotates the point. "
-                   "Rotate the point first, because T p is R p + t",
+    ("t-before-R",
+     "your code computes R (p + t). Rotate the point first, because T p is R p + t",
      {"moved": lambda R, t, x: (x + t) @ R.T}),
     ("centre-before-dividing",
-     "your code adds the principal point before it divides by the depth. Add the "
-     "principal point after the division instead",
+     "your result contains the principal point divided by the depth. Add the principal "
+     "point after the division by the depth instead",
      {"times": lambda K, p: np.column_stack([
          p[:, :2] * np.diag(K)[:2] + K[:2, 2], p[:, 2]])}),
     ("centre-forgotten",
@@ -87,12 +87,14 @@ for slug, says, other in (
      "your code negates y. Keep the sign of y, because y and v both point down",
      {"times": lambda K, p: p * [1, -1, 1] @ K.T}),
     ("view-along-minus-z",
-     "your code divides x and y by -z, as for MuJoCo's camera frame. Divide by z "
-     "instead, because in this task the z axis points forward",
+     "in your result, x / z and y / z have the wrong sign. Either your code divides by "
+     "-z, as for MuJoCo's camera frame, or it negates x and y. Keep all signs, because "
+     "in this task the z axis points forward",
      {"times": lambda K, p: p * [1, 1, -1] @ K.T}),
     ("mujoco-axes",
-     "your code negates y and z, as for MuJoCo's camera frame. Keep their signs, "
-     "because T_cam_world already maps to a frame with y down and z forward",
+     "in your result, x / z has the wrong sign. Either your code negates x, or it "
+     "negates y and z, as for MuJoCo's camera frame. Keep all signs, because "
+     "T_cam_world already maps to a frame with y down and z forward",
      {"times": lambda K, p: p * [1, -1, -1] @ K.T}),
     ("divided-by-range",
      "your code divides the point by its distance from the camera. Divide the point by "
@@ -112,8 +114,8 @@ for slug, says, other in (
      "pixel by its last entry instead, which is the depth",
      {"divided": lambda h, p: h[:, :2] / length(h)}),
     ("homogeneous-by-mistake",
-     "your code divides the homogeneous pixel by the depth twice. Divide by the depth "
-     "only once",
+     "your pixels are divided by the depth once too often. Divide the homogeneous "
+     "pixel by the depth only once",
      {"divided": lambda h, p: h[:, :2] / h[:, 2:] ** 2}),
     ("middle-of-a-pixel",
      "your code subtracts half a pixel, as in OpenCV. Omit this shift, because in this "
@@ -129,7 +131,7 @@ for slug, says, other in (
 
 @row.wrong
 def K_before_T(K, T_cam_world, points):
-    """your code applies K before T. Apply T first, because T applies to points in
+    """your result is T (K p). Apply T first and then K, because T applies to points in
     metres, and multiplication by K gives pixels"""
     p = points @ K.T @ T_cam_world[:3, :3].T + T_cam_world[:3, 3]
     return p[:, :2] / p[:, 2:]

@@ -101,16 +101,16 @@ for slug, says, other in (
      "derivative of x / z with respect to z is -x / z^2",
                           {"pixel": third(lambda z: -1.0)}),
     ("power-of-z",
-     "your code uses the wrong power of z in the derivatives with respect to z. The "
-     "derivative of x / z with respect to z is -x / z^2",
+     "your derivatives with respect to z have the wrong power of z. The derivative of "
+     "x / z with respect to z is -x / z^2",
      {"pixel": third(lambda z: z)}),
     ("power-of-z",
-     "your code uses the wrong power of z in the derivatives with respect to z. The "
-     "derivative of x / z with respect to z is -x / z^2",
+     "your derivatives with respect to z have the wrong power of z. The derivative of "
+     "x / z with respect to z is -x / z^2",
                    {"pixel": third(lambda z: z * z)}),
     ("power-of-z",
-     "your code uses the wrong power of z in the derivatives with respect to z. The "
-     "derivative of x / z with respect to z is -x / z^2",
+     "your derivatives with respect to z have the wrong power of z. The derivative of "
+     "x / z with respect to z is -x / z^2",
                    {"pixel": third(lambda z: 1 / z)}),
     ("f-forgotten",
      "your code omits the focal lengths. Multiply the row for u by fx and the row for "
@@ -148,9 +148,9 @@ for slug, says, other in (
      "columns, because the velocity omega x p is equal to -[p] omega",
      {"twist": lambda p: by_twist(p, 1.0)}),
     ("camera-moves",
-     "your code returns the Jacobian for a moving camera, which has the opposite "
-     "sign. Negate the Jacobian, because in this task the points move and the camera "
-     "does not",
+     "your Jacobian has the opposite sign, as for a moving camera or for the error "
+     "(measured minus projected). Return the derivative of the projected pixel for "
+     "moving points, because in this task the camera does not move",
      {"told": np.negative}),
     ("y-up",
      "your code returns the row for v with the wrong sign. Keep the sign of y, because "

@@ -129,12 +129,12 @@ for slug, says, other in (
      "your code halves each step, so about a thousandth of the error remains after "
      "ten steps. Use the whole step instead", {"factor": 0.5}),
     ("rows-mixed",
-     "your code puts all u before all v in the rows of J, but it orders the errors "
-     "point by point. Use the same order for both",
+     "in your result, the rows of J have all u before all v, but the errors are "
+     "ordered point by point. Use the same order for both",
      {"solve": mixed}),
     ("error-mixed",
-     "your code puts all u before all v in the errors, but it orders the rows of J "
-     "point by point. Use the same order for both",
+     "in your result, the errors have all u before all v, but the rows of J are "
+     "ordered point by point. Use the same order for both",
      {"solve": mixed_off}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(steps, **other))
@@ -142,7 +142,7 @@ for slug, says, other in (
 
 @row.wrongs
 def _(K, T_guess, points, pixels):
-    """guess-returned: your code returns the guess itself. Does your loop update T?"""
+    """guess-returned: your code returns the guess itself. Take ten steps from it"""
     return {"guess-returned": T_guess}
 
 

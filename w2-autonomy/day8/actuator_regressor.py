@@ -53,8 +53,8 @@ def side_by_side(*blocks):
 
 for slug, says, blocks in (
     ("smoothed",
-     "your code uses the smooth function tanh(qd / 0.1) for dry friction. Use the sign "
-     "of qd instead",
+     "your dry friction is the smooth function tanh(qd / 0.1). Use the sign of qd "
+     "instead",
      lambda qd, qdd: (qdd, qd, np.tanh(qd / 0.1))),
     ("sign-at-rest",
      "your code returns 1 for the dry friction of a joint at rest. Return 0 instead, "

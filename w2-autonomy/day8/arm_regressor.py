@@ -75,43 +75,44 @@ def below(corner, T):
 
 for slug, says, other in (
     ("bracket-forgotten",
-     "your code omits the term ad(V) S qd in the acceleration A. Add this term, "
+     "your result omits the term ad(V) S qd of the acceleration. Add this term, "
      "because the preceding joints move the axis of joint i",
                           {"bracket": 0.0}),
     ("bracket-sign",
-     "your code adds ad(S) V qd to the acceleration A. Add ad(V) S qd instead, because "
-     "swapping V and S reverses the sign",
+     "in your result, the term ad(V) S qd of the acceleration has the wrong sign. Add "
+     "ad(V) S qd and not ad(S) V qd, because swapping V and S reverses the sign",
      {"bracket": -1.0}),
-    ("pose-not-inverted", "your code transforms V and A with Ad(T). Use Ad(T^-1) "
-                          "instead, because it maps from the world frame to the link "
-                          "frame",
+    ("pose-not-inverted",
+     "in your result, V and A are transformed with Ad(T). Use Ad(T^-1) instead, "
+     "because it maps from the world frame to the link frame",
      {"into": adjoint}),
     ("offset-left-out",
-     "your code uses 0 as the lower left block of Ad(T^-1). This block should be -R^T "
-     "[p], which moves the reference point of V and A to the link's origin",
+     "your result omits the position p of the link's origin, which is in the lower "
+     "left block of Ad(T^-1). This block should be -R^T [p], which moves the reference "
+     "point of V and A to the link's origin",
      {"into": lambda T: np.kron(np.eye(2), T[:3, :3].T)}),
     ("in-world-axes",
      "your code does not transform V and A into the link frame. Transform both, "
      "because the parameters of a link are expressed in the link's own frame",
      {"into": lambda T: np.eye(6)}),
     ("wrench-back-with-the-inverse",
-     "your code transforms the wrench back to the world frame with X^-1, as for a "
-     "twist. Use X^T instead, because the power that the wrench delivers is the same "
-     "in both frames",
+     "in your result, the wrench is transformed back to the world frame with Ad(T), as "
+     "for a twist. Use Ad(T^-1)^T instead, because the power that the wrench delivers "
+     "is the same in both frames",
                                      {"back": np.linalg.inv}),
     ("wrench-not-carried-back",
-     "your code only rotates the wrench into the world frame. Multiply the wrench by "
-     "X^T instead, because X^T also moves the reference point of the moment to the "
+     "your result only rotates the wrench into the world frame. Multiply the wrench by "
+     "Ad(T^-1)^T instead, which also moves the reference point of the moment to the "
      "world origin",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),
     ("every-joint-feels-every-link",
-     "your code fills the rows of all joints in the columns of link i. Fill only the "
-     "rows of joints 1 to i, because a link causes no torque at the joints distal to "
-     "it",
+     "in your result, link i also loads the joints distal to it. Fill only the rows of "
+     "joints 1 to i in the columns of link i, because a link causes no torque at the "
+     "joints distal to it",
      {"felt": lambda i: slice(0, 7)}),
-    ("cut-early", "your code does not fill the row of joint i in the columns of link "
-                  "i. Fill this row too, because a link also causes a torque at its "
-                  "own joint",
+    ("cut-early",
+     "in your result, the row of joint i is 0 in the columns of link i. Fill this row "
+     "too, because a link also causes a torque at its own joint",
                   {"felt": lambda i: slice(0, i)}),
     ("cut-late", "your code also fills the row of joint i + 1 in the columns of link "
                  "i. Leave this row 0, because a link causes no torque at the joints "
@@ -126,8 +127,8 @@ for slug, says, other in (
                       "carry link i",
                       {"felt": lambda i: slice(i, i + 1)}),
     ("last-link-missing",
-     "your code returns 0 in the columns of the last link. Does your loop end one link "
-     "too early?", {"links": 6}),
+     "your code returns 0 in the columns of the last link. Include all seven links, "
+     "because the last link also loads the joints", {"links": 6}),
     ("pose-of-the-link-before", "your code uses the pose of the previous link for "
                                 "each link. T_links[0] is already the pose of link 1, "
                                 "so use T_links[i - 1] for link i",
@@ -137,31 +138,33 @@ for slug, says, other in (
      "poses in T_links unchanged, because they are already relative to the world",
      {"pose": lambda T, i: inverse(T[i - 1]) @ T[i] if i else T[0]}),
     ("p-sign",
-     "your code uses R^T [p] as the lower left block of Ad(T^-1). This block should be "
-     "-R^T [p]",
+     "in your result, the position p has the wrong sign, as with R^T [p] in the lower "
+     "left block of Ad(T^-1). This block should be -R^T [p]",
      {"into": lambda T: below(T[:3, :3].T @ skew(T[:3, 3]), T)}),
     ("p-before-R",
-     "your code uses -[p] R^T as the lower left block of Ad(T^-1). This block should "
-     "be -R^T [p], because p is expressed in the world frame",
+     "your result contains -[p] R^T, but the lower left block of Ad(T^-1) should be "
+     "-R^T [p], because p is expressed in the world frame",
      {"into": lambda T: below(-skew(T[:3, 3]) @ T[:3, :3].T, T)}),
     ("p-before-R",
-     "your code uses [p] R^T as the lower left block of Ad(T^-1). This block should be "
+     "your result contains [p] R^T, but the lower left block of Ad(T^-1) should be "
      "-R^T [p], because p is expressed in the world frame",
      {"into": lambda T: below(skew(T[:3, 3]) @ T[:3, :3].T, T)}),
     ("acceleration-starts-anew",
      "your code computes A only from the acceleration of the base and the terms of "
      "joint i. Add the terms of the preceding joints as well",
      {"passed_on": 0.0}),
-    ("gravity-forgotten", "your code does not use the argument g. Begin A with the "
-                          "acceleration of the base, which is -g",
+    ("gravity-forgotten",
+     "your result does not depend on g. Begin the accelerations with the acceleration "
+     "of the base, which is -g",
                           {"gravity": 0.0}),
     ("acceleration-not-turned",
-     "your code transforms V into the link frame, but it leaves A in the world frame. "
+     "in your result, V is expressed in the link frame, but A is in the world frame. "
      "Transform A as well, because the link regressor needs both in the link frame",
      {"both": False}),
     ("twist-too-late",
-     "your code uses V before it adds S qd of joint i, so V is the twist of the "
-     "previous link. Add S qd of joint i first", {"late": True}),
+     "your result uses the twist of the previous link for each link. Add S qd of joint "
+     "i first, because the twist of link i includes the velocity of joint i",
+     {"late": True}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(walk, **other))
 
@@ -169,7 +172,8 @@ for slug, says, other in (
 @row.wrong
 def added_up_in_the_links(J, T, qd, qdd, g):
     """your code sums V and A in the link frames, so it adds vectors that are expressed
-    in different frames. Sum V and A in the world frame instead"""
+    in different frames. Sum V and A in the world frame instead, or transform the sums
+    of the previous link to the next one"""
     V = np.zeros(6)
     A = np.append(np.zeros(3), -g)
     Y = np.zeros((7, 70))

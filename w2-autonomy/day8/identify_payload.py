@@ -52,21 +52,22 @@ def _(J_site, R_site, extra, g):
       only seven equations remain. Stack the rows of all poses instead
     first-hold-only: your code uses only the first pose. One pose does not determine all
       four parameters, so stack the rows of all poses instead
-    last-hold-only: your code uses only the last pose. Stack the rows of all poses. Does
-      each pass of your loop overwrite the rows of the previous pose?
-    extra-by-joint: your code flattens the torques joint by joint, but it stacks the
-      rows of the regressor pose by pose. Use the same order for both
-    reshaped: your code reshapes J_site to (k, 7, 6), which does not transpose the
-      matrices. Swap the last two axes of J_site instead
-    wrenches-first: your code converts each pose's torques to a wrench and fits the
-      wrenches. Fit the torques themselves, because they are the measured quantities
+    last-hold-only: your code uses only the last pose. One pose does not determine all
+      four parameters, so stack the rows of all poses instead
+    extra-by-joint: in your result, the torques are ordered joint by joint, but the rows
+      of the regressor are ordered pose by pose. Use the same order for both
+    reshaped: your result uses each matrix of J_site reshaped to (7, 6), which is not
+      its transpose. Use J^T instead
+    wrenches-first: your result is a fit to wrenches that are computed from each pose's
+      torques. Fit the torques themselves, because they are the measured quantities
     cut-too-high: your code omits small singular values. Keep these values, because they
       determine part of m c if the poses differ only slightly
-    solutions-averaged: your code solves the equations of each pose separately and
-      averages the solutions. One pose does not determine all four parameters, so stack
-      the rows of all poses
-    weight-for-mass: your code returns the weight in newtons instead of the mass. Use g
-      itself in the column for m, not the unit vector along g
+    solutions-averaged: your result is the mean of the solutions for the individual
+      poses. One pose does not determine all four parameters, so stack the rows of all
+      poses
+    weight-for-mass: your code returns the weight in newtons instead of the mass. The
+      force of the payload is m g, so the column for m should contain g itself and not
+      only its direction
     centre-for-first-moment: your code returns the centre of mass c in the last three
       entries. Return the first moment m c instead, because the equations are linear in
       m c
@@ -96,8 +97,9 @@ def _(J_site, R_site, extra, g):
 
 @row.wrongs
 def _(J_site, R_site, extra, g):
-    """g-not-turned-back: your code multiplies g by R. Multiply g by R^T instead to
-      express g in the hand frame
+    """g-not-turned-back: your moments contain R g instead of R^T g. Multiply g by R^T
+      to express it in the hand frame, because R maps from the hand frame to the world
+      frame
     moment-in-the-hand: your code expresses the moment in the hand frame. Multiply the
       moment by R, because J_site requires a moment in the world frame
     """

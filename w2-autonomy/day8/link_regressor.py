@@ -27,17 +27,16 @@ def _(rng):
 
 @row.wrongs
 def _(V, Vd):
-    """ad-not-transposed: your code uses -ad(V) G V as the velocity term. This term
-      should be -ad(V)^T G V, because the momentum G V transforms like a wrench
-    ad-not-transposed-plus: your code uses ad(V) G V as the velocity term. This term
-      should be -ad(V)^T G V, because the momentum G V transforms like a wrench
-    unit-vector-not-reset: your code does not reset the unit vector phi between columns,
-      so column k is the sum of the first k correct columns. Create a new unit vector
-      for each column
+    """ad-not-transposed: your velocity term is -ad(V) G V. It should be -ad(V)^T G V,
+      because the momentum G V transforms like a wrench
+    ad-not-transposed-plus: your velocity term is ad(V) G V. It should be -ad(V)^T G V,
+      because the momentum G V transforms like a wrench
+    unit-vector-not-reset: column k of your result is the sum of the first k correct
+      columns. Use a new unit vector phi for each column, with only entry k set to 1
     gravity-added: your code adds gravity to Vd. Use Vd unchanged, because it already
       includes gravity as the acceleration -g of the base
-    first-moments-empty: your code returns 0 in the columns for m c. Use phi[1:4]
-      without multiplying or dividing it by m, because m is 0 in the unit vectors for
+    first-moments-empty: your code returns 0 in the columns for m c. The first moment m
+      c is a parameter of its own, so do not multiply or divide it by m, which is 0 in
       these columns
     """
     right = link_regressor(V, Vd)

@@ -89,13 +89,14 @@ for slug, says, code in (
      "exist",
      lambda phi: -abs(np.linalg.eigvalsh(pseudo(phi))[0])),
     ("first-moment-once",
-     "your result does not depend on h. Write h both to the right of Sigma and below "
-     "it, because numpy.linalg.eigvalsh reads only the lower triangle",
+     "your result does not depend on h. The pseudo-inertia should contain h both to "
+     "the right of Sigma and below it, because numpy.linalg.eigvalsh reads only the "
+     "lower triangle",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
-    ("about-the-centre", "your code first moves I to the centre of mass. Use I "
-                         "unchanged, because the pseudo-inertia also refers to the "
-                         "origin",
+    ("about-the-centre",
+     "your result uses the inertia about the centre of mass. Use I unchanged, because "
+     "the pseudo-inertia also refers to the origin",
      lambda phi: np.linalg.eigvalsh(pseudo(phi, lambda I: moved(phi, I)))[0]),  # noqa: E741
     ("of-the-inertia",
      "your code returns the smallest eigenvalue of the 6x6 spatial inertia. Use the "
@@ -103,8 +104,8 @@ for slug, says, code in (
      "and E is the identity matrix",
      lambda phi: np.linalg.eigvalsh(spatial_inertia_from_params(phi))[0]),
     ("unsorted",
-     "your code returns the first eigenvalue from numpy.linalg.eigvals, which does not "
-     "sort its results. Return the smallest eigenvalue instead",
+     "your code does not always return the smallest eigenvalue. The results of "
+     "numpy.linalg.eigvals, for example, are not sorted",
      lambda phi: np.linalg.eigvals(pseudo(phi))[0].real),
 ):  # fmt: skip
     row.wrong(slug, says)(code)

@@ -37,19 +37,21 @@ def _(Y, tau, Y_new, rtol):
       sqrt(r . r / (n - rank)) instead, where r is the vector of residuals
     noise-added: your code adds the noise of a new measurement to sigma. Omit this
       noise, because sigma should include only the uncertainty of the fitted parameters
-    mean-taken-off: your code first subtracts the mean from the residuals. Use the
-      residuals unchanged, because their mean is part of the noise
+    mean-taken-off: your noise level omits the mean of the residuals, as np.std does.
+      Use the residuals unchanged, because their mean is part of the noise
     rank-taken-off-last: your code divides the sum of the squared residuals by n and
       then subtracts the rank. Divide the sum by n - rank instead
     noise-for-sigma: your code returns the noise level as sigma for every row of Y_new.
-      For each row y, multiply the noise level by the norm of y V S^-1
-    sigma-by-s-squared: your code uses the norm of y V S^-2 in sigma, where y is a row
-      of Y_new. Use the norm of y V S^-1 instead
-    sigma-with-V: your code uses V^T instead of V in sigma. The third result of
-      numpy.linalg.svd is V^T, so transpose it
-    sigma-cut-not-squared: for sigma, your code compares the eigenvalues of Y^T Y with
-      rtol times the largest one. Use rtol^2 instead of rtol, because these eigenvalues
-      are the squares of the singular values
+      For each row y, multiply the noise level by the norm of y V S^-1, which is also
+      the norm of y Y^+
+    sigma-by-s-squared: your sigma contains the norm of y V S^-2, which is also the norm
+      of y (Y^T Y)^+, where y is a row of Y_new. Use the norm of y V S^-1 instead, which
+      is also the norm of y Y^+
+    sigma-with-V: your sigma contains V^T in the place of V, the matrix of the right
+      singular vectors. The third result of numpy.linalg.svd is V^T, so transpose it
+    sigma-cut-not-squared: in your sigma, the limit of the singular values is sqrt(rtol)
+      times the largest one, as if rtol were the limit of the eigenvalues of Y^T Y. Use
+      rtol^2 for these eigenvalues, because they are the squares of the singular values
     sizes-added: your code uses the sum of the absolute entries of y V S^-1 in sigma,
       where y is a row of Y_new. Use the norm of y V S^-1 instead, because the variances
       of independent errors add

@@ -111,22 +111,22 @@ for slug, says, told in (
     ("rtol-not-used",
      "your code uses a constant as the tolerance. Use the argument `rtol` instead",
      lambda s, rtol: (n := np.sum(s > 1e-9 * s[0]), s[0] / s[n - 1])),
-    ("eigenvalues-of-the-square", "your code uses the eigenvalues of Y^T Y as "
-                                  "singular values. Use their square roots, which "
-                                  "are the singular values of Y",
+    ("eigenvalues-of-the-square",
+     "your result uses the squares of the singular values, which are the eigenvalues "
+     "of Y^T Y. Use the singular values of Y themselves",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), (s[0] / s[n - 1]) ** 2)),
     ("cut-not-squared",
-     "your code compares the eigenvalues of Y^T Y with rtol times the largest one. Use "
-     "rtol^2 instead of rtol, because these eigenvalues are the squares of the "
-     "singular values",
+     "your limit of the singular values is sqrt(rtol) times the largest one, as if "
+     "rtol were the limit of the eigenvalues of Y^T Y. Use rtol^2 for these "
+     "eigenvalues, because they are the squares of the singular values",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), s[0] / s[n - 1])),
     ("hidden-for-shown",
      "your code counts the singular values below rtol times the largest one. Count the "
      "singular values above this limit instead",
      lambda s, rtol: (len(s) - (n := np.sum(s > rtol * s[0])), s[0] / s[n - 1])),
     ("condition-squared",
-     "your code returns the condition number of Y^T Y, which is the square of the "
-     "condition number of Y. Use the singular values of Y instead",
+     "your code returns the square of the condition number, which is the condition "
+     "number of Y^T Y. Return the ratio of the singular values of Y instead",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), (s[0] / s[n - 1]) ** 2)),
     ("condition-rooted",
      "your code takes the square root of the ratio of two singular values. Use the "

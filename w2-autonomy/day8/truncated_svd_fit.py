@@ -33,8 +33,8 @@ def of_the_values(case: Case) -> Finding | None:
         return Finding("cut-elsewhere", says)
     if all(one[-1] > 0 and np.allclose(one, one[-1], rtol=0.1) for one in added):
         most = max(one[-1] for one in added)
-        says = f"Your code adds up to {most:.3g} to the diagonal of Y^T Y (ridge "
-        says += "regression), which shrinks all combinations of parameters."
+        says = f"Your result is a ridge regression, with up to {most:.3g} added to the "
+        says += "diagonal of Y^T Y, which shrinks all combinations of parameters."
         return Finding("ridge", says)
     return columns_left_out(case) or not_the_smallest(case)
 
@@ -128,18 +128,20 @@ def _(Y, tau, rtol):
     cut-by-rows: your function multiplies rtol by the number of rows, as NumPy does with
       its default tolerance. Use rtol times the largest singular value as the limit
       instead
-    V-for-its-transpose: your code uses V^T instead of V. The third result of
-      numpy.linalg.svd is V^T, so transpose it
-    cut-not-squared: your code compares the eigenvalues of Y^T Y with rtol times the
-      largest one. Use rtol^2 instead of rtol, because these eigenvalues are the squares
-      of the singular values
-    ridge: your code adds a constant to the diagonal of Y^T Y, which shrinks the
-      estimates of all combinations of parameters. Omit the small singular values
-      instead, so that the estimates of the other combinations do not shrink
-    mean-taken-off: your code first subtracts the mean of tau. Use tau unchanged,
+    V-for-its-transpose: your result contains V^T in the place of V, the matrix of the
+      right singular vectors. The third result of numpy.linalg.svd is V^T, so transpose
+      it
+    cut-not-squared: your limit of the singular values is sqrt(rtol) times the largest
+      one, as if rtol were the limit of the eigenvalues of Y^T Y. Use rtol^2 for these
+      eigenvalues, because they are the squares of the singular values
+    ridge: your result is a ridge regression, with a constant added to the diagonal of
+      Y^T Y, which shrinks the estimates of all combinations of parameters. Omit the
+      small singular values instead, so that the estimates of the other combinations do
+      not shrink
+    mean-taken-off: your result is the fit to tau minus its mean. Use tau unchanged,
       because the model tau = Y phi has no constant term
-    times-s: your code multiplies U^T tau by the singular values. Divide U^T tau by the
-      singular values instead, as in the pseudo-inverse of Y
+    times-s: your result multiplies U^T tau by the singular values, as in Y^T tau.
+      Divide U^T tau by the singular values instead, as in the pseudo-inverse of Y
     first-columns: your code fits only the first r columns of Y, where r is the rank.
       These columns need not be linearly independent, so use all columns and the SVD
     """

@@ -78,15 +78,16 @@ for slug, says, other in (
      "dt instead, because each change takes place within one sampling period",
      {"change": lambda q: backward(q) / np.maximum(np.arange(len(q)), 1)}),
     ("last-left-out",
-     "your code returns 0 as the last velocity. Does your loop end one sample too "
-     "early?",
+     "your code returns 0 as the last velocity. Use the last two samples for this "
+     "velocity",
      {"change": lambda q: np.append(backward(q)[:-1], 0.0)}),
     ("second-left-out",
-     "your code returns 0 as the second velocity. Does your loop begin one sample too "
-     "late?",
+     "your code returns 0 as the second velocity. Only the first velocity should be 0, "
+     "because the second sample already has a previous one",
      {"change": lambda q: np.append([0.0, 0.0], np.diff(q)[1:])}),
-    ("twice", "your code takes the difference of the differences, which gives an "
-              "acceleration times dt. Take the difference only once",
+    ("twice",
+     "your result is the difference of the differences, which is an acceleration times "
+     "dt. Take the difference only once",
      {"change": lambda q: backward(backward(q))}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(velocity, **other))

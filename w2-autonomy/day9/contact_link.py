@@ -89,16 +89,17 @@ def _(residual, threshold):
       instead
     from-the-tip: your code counts the joints from the tip. Count the joints from the
       base instead, where joint1 has the number 1
-    until-one-does-not: your code stops the search at the first joint under its
+    until-one-does-not: your code ignores all joints after the first joint under its
       threshold. Test all joints, because a later joint may be over its threshold
     largest-threshold: your code compares every joint with the largest threshold.
       Compare each joint with its own threshold instead
     smallest-threshold: your code compares every joint with the smallest threshold.
       Compare each joint with its own threshold instead
     last-joint-decides: your function returns 7 if joint 7 is over its threshold, and
-      otherwise 0. Does your loop overwrite an earlier result?
-    last-joint-left-out: your code omits joint 7. Does your loop end one joint too
-      early?
+      otherwise 0. Return the number of the last joint over its threshold instead,
+      whichever joint it is
+    last-joint-left-out: your code omits joint 7. Test all seven joints, because a
+      contact at the hand can be visible only there
     numbers-added: your function returns the sum of the numbers of all joints over their
       thresholds. Return only the number of the last such joint
     sum-over: your code compares the sum of all absolute residuals with the thresholds.

@@ -51,16 +51,16 @@ for slug, says, other in (
      "kd^2, kd^4 and kp^2, because the unknown of the quadratic equation is w^2",
      {"w": lambda kp, kd: np.sqrt((kd + np.sqrt(kd**2 + 4 * kp)) / 2)}),
     ("inverted",
-     "your code inverts the fraction in atan. The phase lead is atan(kd w / kp), which "
-     "is 0 for kd = 0",
+     "your phase lead is atan(kp / (kd w)), which is 90 degrees minus the correct "
+     "phase lead. It should be atan(kd w / kp), which is 0 for kd = 0",
      {"angle": lambda kp, kd, w: np.arctan(kp / (kd * w))}),
     ("from-the-far-side",
      "your code uses pi minus the phase lead as the phase margin. The phase margin is "
      "the phase lead itself, because it is measured from -180 degrees",
      {"angle": lambda kp, kd, w: np.pi - np.arctan(kd * w / kp)}),
     ("in-cycles",
-     "your code divides the phase lead by the frequency in Hz. Divide the phase lead "
-     "by w in rad/s instead, because the phase lead is in radians",
+     "your result is too large by the factor 2 pi, as with the frequency in Hz. Divide "
+     "the phase lead by w in rad/s instead, because the phase lead is in radians",
      {"by": lambda w: w / (2 * np.pi)}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(margin, **other))

@@ -30,8 +30,8 @@ def _(x, P, F, Q):
       instead, because F also transforms the error of the state
     Q-carried-too: your code transforms both P and Q with F. Transform only P, and add Q
       afterwards, because Q already belongs to the new state
-    entry-by-entry: your function multiplies F and P entry by entry with `*`. Use `@`
-      for the matrix product instead
+    entry-by-entry: in your result, F and P are multiplied entry by entry, as by `*`.
+      Use the matrix product `@` instead
     """
     Ps = {
         "transposed-on-the-left": F.T @ P @ F + Q,

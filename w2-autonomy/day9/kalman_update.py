@@ -63,8 +63,8 @@ def after_it(P, H, R, after, new_P):
 
 for slug, says, other in (
     ("surprise-sign",
-     "your code uses H x - z as the innovation, so the update moves the state away "
-     "from the reading. Use z - H x instead",
+     "your code uses the wrong sign for the innovation or the gain, so the update "
+     "moves the state away from the reading. The new state should be x + K (z - H x)",
      {"of": lambda z, Hx: Hx - z}),
     ("R-rooted", "your code uses the square root of R. Use R itself, because R is a "
                  "covariance and not a standard deviation",
@@ -89,8 +89,9 @@ for slug, says, other in (
      "your code computes the new covariance as (I - K H) P (I - K H)^T, where I is the "
      "identity matrix. Add K R K^T, which is the other term of the Joseph form",
      {"new_P": lambda P, K, S, H, R: without(K, H) @ P @ without(K, H).T}),
-    ("P-K-R-K-besides", "your code adds K R K^T to P - K S K^T. Omit K R K^T, because "
-                        "it belongs only to the Joseph form",
+    ("P-K-R-K-besides",
+     "your new covariance is P - K S K^T + K R K^T. Omit K R K^T, because it belongs "
+     "only to the Joseph form",
      {"new_P": lambda P, K, S, H, R: P - K @ S @ K.T + K @ R @ K.T}),
     ("x-only-where-read",
      "your code corrects only the measured entries of x. Correct all entries with K, "

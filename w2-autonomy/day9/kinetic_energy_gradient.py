@@ -56,12 +56,13 @@ for slug, says, other in (
      "your code omits the contribution of link i. Begin the sum with link i, because "
      "joint i also rotates link i",
      {"felt": lambda i: slice(i + 1, None)}),
-    ("last-link-left-out", "your code omits the contribution of link 7. Does your "
-                           "loop end one link too early?",
+    ("last-link-left-out",
+     "your code omits the contribution of link 7. Sum the contributions of links i to "
+     "7, because joint i rotates all these links",
      {"felt": lambda i: slice(i, -1)}),
     ("last-link-only",
-     "your code uses only the contribution of link 7. Does your loop overwrite the sum "
-     "instead of adding to it?",
+     "your code uses only the contribution of link 7. Sum the contributions of links i "
+     "to 7 instead, because joint i rotates all these links",
      {"felt": lambda i: slice(-1, None)}),
     ("earlier-links", "your code sums the contributions of links 1 to i. Sum the "
                       "contributions of links i to 7 instead, because joint i rotates "
@@ -84,8 +85,8 @@ for slug, says, other in (
      "joints 1 to i instead, because these joints move link i",
      {"twists": lambda S, qd: np.cumsum((S * qd[:, None])[::-1], axis=0)[::-1]}),
     ("twists-one-late",
-     "your code omits the velocity of joint i in V_i. Does your code use V_i before it "
-     "adds this velocity?",
+     "your code omits the velocity of joint i in V_i. The twist V_i should be the sum "
+     "of the velocities of joints 1 to i, because joint i also moves link i",
      {"twists": lambda S, qd: np.cumsum(S * qd[:, None], axis=0) - S * qd[:, None]}),
     ("one-late-for-all",
      "your code uses the twist V_(i-1) for all links from i to 7. Use the twist V_k "

@@ -52,8 +52,9 @@ for slug, says, other in (
      "smaller than RC",
      {"alpha": lambda x: x / (1 + x)}),
     ("share-turned-round",
-     "your code swaps the weights alpha and 1 - alpha. The new sample should get the "
-     "weight alpha, and the previous output the weight 1 - alpha",
+     "in your result, the weights alpha and 1 - alpha are swapped. The new sample "
+     "should get the weight alpha = 1 - exp(-2 pi cutoff dt), and the previous output "
+     "the weight 1 - alpha",
      {"step": lambda y, now, before, a: now + a * (y - now)}),
     ("euler-share",
      "your code uses 2 pi cutoff dt as alpha, which can exceed 1. Use 1 - exp(-2 pi "
@@ -84,9 +85,9 @@ for slug, says, other in (
      "your code adds alpha times the change of x since the previous sample. Add alpha "
      "times the difference between x and the previous output instead",
      {"step": lambda y, now, before, a: y + a * (now - before)}),
-    ("whole-numbers-kept", "your code stores y in an integer array, which discards the "
-                           "fractional part of each output. Create a float array "
-                           "instead",
+    ("whole-numbers-kept",
+     "your outputs have no fractional part, as in an integer array. Create a float "
+     "array instead",
      {"step": lambda y, now, before, a: np.trunc(np.trunc(y) + a * (now - np.trunc(y))),
       "first": lambda x, a: np.trunc(x[0])}),
 ):  # fmt: skip
@@ -103,10 +104,10 @@ def _(x, dt, cutoff):
       Return y itself instead
     not-filtered: your function returns x unchanged. Return the filtered signal y
       instead
-    last-left-out: your code returns 0 as the last output. Does your loop end one sample
-      too early?
+    last-left-out: your code returns 0 as the last output. Filter the last sample too,
+      because y has one output for each sample
     last-left-out 2: your code returns the unfiltered last sample as the last output.
-      Does your loop end one sample too early?
+      Filter the last sample too
     """
     right = low_pass(x, dt, cutoff)
     return {

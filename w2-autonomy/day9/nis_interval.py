@@ -27,16 +27,16 @@ def interval(
 
 for slug, says, other in (
     ("multiplied-for-divided",
-     "your code computes the variance of the cube root as 2 / 9 * n * m, which divides "
-     "only by 9. Write 2 / (9 * n * m) instead",
+     "your variance of the cube root is 2 n m / 9, as from 2 / 9 * n * m. Write 2 / (9 "
+     "* n * m) instead",
      {"c": lambda n, m: 2 / 9 * n * m}),
     ("added-for-multiplied",
      "your code uses n + m in the variance of the cube root. Use n m instead, because "
      "the sum of n NIS values has n m degrees of freedom",
      {"c": lambda n, m: 2 / (9 * (n + m))}),
     ("whole-division",
-     "your code computes the variance of the cube root with the operator //, so the "
-     "variance is 0. Use the operator / instead",
+     "your variance of the cube root is 0, as from the operator //. Use 2 / (9 * n * "
+     "m) instead",
      {"c": lambda n, m: 2 // (9 * n * m)}),
     ("shift-forgotten",
      "your function uses 1 as the mean of the cube root. Use 1 - c instead, where c is "
@@ -57,7 +57,8 @@ for slug, says, other in (
                     "specified in the task",
      {"z": 1.959964}),
     ("m-cubed",
-     "your code multiplies the cube by m^3. Multiply the cube by m instead",
+     "your result has the factor m^3. Multiply only the cube itself by m, so that m is "
+     "not cubed",
      {"front": lambda n, m: m**3}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(interval, **other))
