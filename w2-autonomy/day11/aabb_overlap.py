@@ -131,20 +131,20 @@ def _(rng):
 def _(box_a, box_b):
     """any-for-all: your code reports an overlap if the intervals overlap on at least
       one axis. Two boxes overlap only if their intervals overlap on all three axes
-    one-direction: your code makes only one of the two comparisons, so it reports an
-      overlap even if `box_b` lies entirely on the positive side of `box_a`. Make both
-      comparisons on each axis
-    one-direction 2: your code makes only one of the two comparisons, so it reports an
-      overlap even if `box_b` lies entirely on the negative side of `box_a`. Make both
-      comparisons on each axis
+    one-direction: your code reports an overlap even if `box_b` lies entirely on the
+      positive side of `box_a`. Test both sides on each axis, because a gap on either
+      side separates the boxes
+    one-direction 2: your code reports an overlap even if `box_b` lies entirely on the
+      negative side of `box_a`. Test both sides on each axis, because a gap on either
+      side separates the boxes
     touching-left-out: your code reports boxes that only touch as separate. Boxes that
-      touch also overlap, so use `<=` instead of `<`
+      touch also overlap, so equal faces do not separate them
     touching-left-out 2: your code reports boxes as separate if an upper face of `box_a`
-      touches a lower face of `box_b`. Boxes that touch also overlap, so use `<=` in
-      both comparisons
+      touches a lower face of `box_b`. Boxes that touch also overlap, so equal faces do
+      not separate them
     touching-left-out 3: your code reports boxes as separate if a lower face of `box_a`
-      touches an upper face of `box_b`. Boxes that touch also overlap, so use `<=` in
-      both comparisons
+      touches an upper face of `box_b`. Boxes that touch also overlap, so equal faces do
+      not separate them
     negated: your code negates the result. Return True if the boxes overlap
     first-axis-only: your code compares only x. Two boxes overlap only if their
       intervals overlap on all three axes
@@ -171,9 +171,9 @@ def _(box_a, box_b):
     middles-inside 2: your code requires the centre of one box to lie in the other box.
       Compare the intervals on each axis instead, because two boxes can overlap even if
       neither centre lies in the other box
-    half-of-one: your code compares the distance between the centres with the half
-      extents of `box_a` only. Compare this distance with the sum of the half extents of
-      both boxes
+    half-of-one: your code reports an overlap only if the centre of `box_b` lies in
+      `box_a`. On each axis, the distance between the centres can be as large as the sum
+      of the half extents of both boxes
     corners-only: your code tests whether a corner of one box lies in the other box.
       Compare the intervals on each axis instead, because two boxes can overlap even if
       no corner of either box lies in the other
@@ -195,14 +195,15 @@ def _(box_a, box_b):
     balls 3: your code treats the boxes as spheres, because it compares only the
       distance between the centres with a sum of radii. Compare the intervals on each
       axis instead
-    sides-not-halved: your code compares the distance between the centres along each
-      axis with the sum of the side lengths. Compare this distance with half of the sum
-      instead
-    sides-in-quarters: your code compares the distance between the centres along each
-      axis with a quarter of the sum of the side lengths. Compare this distance with
-      half of the sum instead
-    or-for-and: your code reports an overlap if one of the two comparisons holds on all
-      axes. Both comparisons must hold on all axes
+    sides-not-halved: your code treats both boxes as twice as large as they are. On each
+      axis, the distance between the centres must be at most half of the sum of the side
+      lengths
+    sides-in-quarters: your code treats both boxes as half as large as they are. On each
+      axis, the distance between the centres can be as large as half of the sum of the
+      side lengths
+    or-for-and: your code reports boxes as separate only if `box_b` lies on the positive
+      side of `box_a` on one axis and on the negative side on another. A gap on one axis
+      already separates the boxes
     two-axes-enough: your code reports an overlap if the intervals overlap on at least
       two axes. Two boxes overlap only if their intervals overlap on all three axes
     other-axes: your code does not compare y. Two boxes overlap only if their intervals

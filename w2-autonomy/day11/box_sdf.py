@@ -87,8 +87,9 @@ def _(p, half_extents):
     farthest-face-inside: inside the box, your code uses the distance to the farthest
       face. Use the largest entry of `abs(p) - half_extents`, which belongs to the
       nearest face
-    farthest-face-inside 2: your code uses the smallest entry of `abs(p) - half_extents`
-      in `min(..., 0)`. Use the largest entry, which belongs to the nearest face
+    farthest-face-inside 2: your code adds the smallest entry of `abs(p) - half_extents`
+      wherever this entry is negative. Add the largest entry instead, which belongs to
+      the nearest face, and only inside the box
     to-the-middle-inside: inside the box, your code returns minus the distance to the
       centre. Return minus the distance to the nearest face instead
     to-the-middle: your code returns the distance to the centre of the box. Return the
@@ -103,11 +104,11 @@ def _(p, half_extents):
       each entry is already half of a side
     twice-the-sides: your code doubles `half_extents`. Use `half_extents` itself,
       because the faces are at plus and minus `half_extents`
-    abs-forgotten: your code omits the absolute value of p. Use `abs(p) - half_extents`,
-      because otherwise the result is wrong for points with a negative coordinate
-    abs-forgotten-zero-inside: your code omits the absolute value of p, and it returns 0
-      inside the box. Use `abs(p) - half_extents`. Inside the box, return minus the
-      distance to the nearest face => both
+    abs-forgotten: your code ignores the faces on the negative side of the box. Use
+      `abs(p) - half_extents`, because the box is symmetric about its centre
+    abs-forgotten-zero-inside: your code ignores the faces on the negative side of the
+      box, and it returns 0 inside the box. Use `abs(p) - half_extents`. Inside the box,
+      return minus the distance to the nearest face => both
     not-rooted: outside the box, your code returns the squared distance. Take the square
       root
     nearest-corner: your code returns the distance to the nearest corner. Use `abs(p) -
@@ -120,11 +121,12 @@ def _(p, half_extents):
     smallest-added: your code adds the smallest entry of `abs(p) - half_extents`, even
       if this entry is positive. Add the largest entry instead, but only if the largest
       entry is negative
-    first-axis-added: your code uses only the x entry of `abs(p) - half_extents` in
-      `min(..., 0)`. Use the largest of the three entries
-    largest-with-max: your code uses `max(..., 0)` for the largest entry of `abs(p) -
-      half_extents`. Use `min(..., 0)` instead, which is 0 outside the box and negative
-      inside
+    first-axis-added: your code adds the x entry of `abs(p) - half_extents` wherever
+      this entry is negative. Add the largest of the three entries instead, and only
+      inside the box
+    largest-with-max: your code adds the largest entry of `abs(p) - half_extents`
+      outside the box instead of inside. Add this entry only inside the box, where it is
+      negative
     sum-inside: inside the box, your code returns minus the sum of the three distances
       to the faces. Return minus the smallest of these distances instead
     mean-inside: inside the box, your code returns minus the mean of the three distances
@@ -142,8 +144,9 @@ def _(p, half_extents):
     lengthwise: your code measures the distance along the line from p to the centre. Use
       `abs(p) - half_extents` instead, because the shortest distance to a face is
       perpendicular to it
-    size-of-the-difference: your code uses `abs(p - half_extents)`. Use `abs(p) -
-      half_extents` instead, which is the distance beyond each pair of faces
+    size-of-the-difference: your code returns the distance from p to the corner at
+      `half_extents`. Use `abs(p) - half_extents`, which is the distance beyond each
+      pair of faces
     cut-at-one: your code clamps the entries of `abs(p) - half_extents` at 1. Omit this
       clamp, because the distance can be larger than 1 m
     corner-or-face: near an edge, your code returns the larger of the two positive
@@ -152,8 +155,8 @@ def _(p, half_extents):
       - half_extents`. Use all three entries
     first-two-only: your code returns only the largest entry of `abs(p) - half_extents`
       if the point lies beyond a z face. Return the norm of the positive entries instead
-    mean-square: outside the box, your code divides the sum of the squares by 3 before
-      it takes the square root. Omit this division
+    mean-square: outside the box, your code returns the root of the mean of the squares.
+      Return the root of their sum instead, because the distance is a norm
     smallest-taken-off: your code subtracts the smallest absolute value of the entries
       of `abs(p) - half_extents`, even outside the box. Subtract this value only inside
       the box

@@ -88,8 +88,9 @@ def _(a0, a1, r):
       the sphere at each end. Add `r` instead, because the box must contain both spheres
     radius-times: your code multiplies the corners by `1 - r` and `1 + r`. Subtract and
       add `r` instead
-    with-the-origin: your code returns a box that always contains the origin. Initialise
-      the minimum and the maximum with `a0`, not with 0
+    with-the-origin: your code returns a box that always contains the origin. Use only
+      the coordinates of `a0` and `a1`. If your code updates a minimum and a maximum,
+      initialise them with `a0`
     size-of-places: your code takes the minimum and the maximum of the absolute
       coordinates. Use the coordinates with their signs
     as-a-ball: your code computes the box of a sphere around the whole capsule. Use the

@@ -129,10 +129,12 @@ def golden(f, n, keep=0.618, wrong=False):
 def _(a0, a1, r, T_world_box, half_extents):
     """ends-only: your code tests only the endpoints of the axis. Minimise `box_sdf`
       along the axis, because the nearest point can lie between the endpoints
-    one-end-only: your code always returns the distance at the endpoint `a1`. Does your
-      search always keep the upper part of the interval?
-    one-end-only 2: your code always returns the distance at the endpoint `a0`. Does
-      your search always keep the lower part of the interval?
+    one-end-only: your code always returns the distance at the endpoint `a1`. Does it
+      test no other point, or does your search always keep the upper part of the
+      interval?
+    one-end-only 2: your code always returns the distance at the endpoint `a0`. Does it
+      test no other point, or does your search always keep the lower part of the
+      interval?
     middle-only: your code tests only the midpoint of the axis. Minimise `box_sdf` along
       the axis, because the nearest point can be anywhere on the axis
     five-points: your code tests only some points of the axis. Minimise `box_sdf` along
@@ -152,14 +154,14 @@ def _(a0, a1, r, T_world_box, half_extents):
     world-axes: your code subtracts the position of the box from the endpoints, but it
       does not rotate the results. Use `R^T (x - t)` to express each endpoint x in the
       box frame
-    turned-the-other-way: your code multiplies the endpoints by R. Multiply them by R^T
-      instead, which rotates from the world frame to the box frame
+    turned-the-other-way: your code rotates `x - t` by R. Rotate this vector by R^T
+      instead, which maps from the world frame to the box frame
     pose-not-inverted: your code applies `T_world_box`, which maps from the box frame to
       the world frame. Apply the inverse of `T_world_box` instead
     place-forgotten: your code rotates the endpoints but does not translate them.
       Subtract the position of the box before the rotation
-    turned-then-moved: your code subtracts the position of the box after the rotation.
-      Subtract the position before the rotation, as in `R^T (x - t)`
+    turned-then-moved: your code computes `R^T x - t` for an endpoint x. Use `R^T (x -
+      t)` instead, because the position t of the box is expressed in the world frame
     t-added: your code adds the position of the box to the endpoints. Subtract the
       position instead, as in `R^T (x - t)`
     radius-forgotten: your code omits the radius, so the result is the distance from the
@@ -169,36 +171,38 @@ def _(a0, a1, r, T_world_box, half_extents):
       still has sharp corners. Subtract the radius from the distance instead
     radius-to-the-box 2: your code enlarges the box by the radius, but the enlarged box
       still has sharp corners. Subtract the radius from the distance instead
-    way-not-turned: your code expresses the start point of the axis in the box frame,
-      but not the direction of the axis. Multiply `a1 - a0` by R^T
-    wrong-half-kept: your search keeps the wrong part of the interval, so it finds the
-      farthest point of the axis. Keep the part with the smaller value of `box_sdf`
-    wrong-half-kept 2: your search keeps the wrong part of the interval, so it finds the
-      farthest point of the axis. Keep the part with the smaller value of `box_sdf`
+    way-not-turned: your axis starts at the correct point in the box frame, but its
+      direction is expressed in the world frame. Multiply `a1 - a0` by R^T
+    wrong-half-kept: your code returns the distance at the farthest point of the axis.
+      Find the minimum of `box_sdf` along the axis. In a search, keep the part of the
+      interval with the smaller value
+    wrong-half-kept 2: your code returns the distance at the farthest point of the axis.
+      Find the minimum of `box_sdf` along the axis. In a search, keep the part of the
+      interval with the smaller value
     bounding-sphere: your code treats the box as a sphere. Compare each coordinate with
       the half extent along its own axis
-    ends-left-out: your search never tests the endpoints of the axis. Start with the
-      whole interval [0, 1]
+    ends-left-out: your code never tests the endpoints of the axis. Include both
+      endpoints, because the nearest point can be one of them
     never-negative: your code returns 0 for shapes that overlap. The signed distance
       should be negative for such shapes
     sign: your code negates the signed distance. The signed distance should be positive
       for shapes that do not overlap
-    outside-only: your code clamps the value of `box_sdf` at 0 if the axis enters the
-      box. Keep the negative value, and then subtract r
-    as-a-line: your search goes beyond the endpoints of the axis. Keep the parameter s
-      in [0, 1]
+    outside-only: if the axis enters the box, your code uses 0 as the distance from the
+      axis to the box. Keep the negative value of `box_sdf`, and then subtract r
+    as-a-line: your code extends the axis beyond its endpoints. Keep the parameter s in
+      [0, 1], because the axis is a segment
     way-moved: your code also subtracts the position of the box from the direction of
       the axis. Omit this subtraction, because a direction is rotated but not translated
     way-moved 2: your code uses the vector from the centre of the box to `a1` as the
       direction of the axis. Use `a1 - a0` instead
-    way-of-length-1: your code normalises the direction of the axis. Use `a1 - a0`
-      itself, because the parameter runs from 0 at `a0` to 1 at `a1`
+    way-of-length-1: your code treats the axis as 1 m long. Use `a1 - a0` without
+      normalisation, because the axis ends at `a1`
     not-into-the-box: your code leaves the endpoints in the world frame. Use `R^T (x -
       t)` to express each endpoint x in the box frame
     radius-off-the-box: your code shrinks the box by the radius. Subtract the radius
       from the distance instead
-    size-of-the-depth: your code takes the absolute value of `box_sdf` if the axis
-      enters the box. Keep the negative value
+    size-of-the-depth: if the axis enters the box, your code uses a positive distance
+      from the axis to the box. Keep the negative value of `box_sdf`
     size-of-the-distance: your code takes the absolute value of the distance. The signed
       distance should be negative for shapes that overlap
     radius-off-the-box 2: your code shrinks the box by the radius. Subtract the radius

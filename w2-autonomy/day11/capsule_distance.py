@@ -112,18 +112,20 @@ def _(a0, a1, ra, b0, b1, rb):
       the closest points from task 11.1, because they can be anywhere on the axes
     of-end-pairs: your code uses the closest pair of endpoints as the closest points.
       Use the closest points from task 11.1, because they can lie between the endpoints
-    largest-part: your code uses the largest absolute component of `p - o` as the
-      distance between p and o. Use the norm of `p - o` instead
-    sum-of-parts: your code uses the sum of the absolute components of `p - o` as the
-      distance between p and o. Use the norm of `p - o` instead
-    in-the-plane 2: your code omits the x component of `p - o`. Use all three components
-    in-the-plane 3: your code omits the y component of `p - o`. Use all three components
+    largest-part: your code uses the largest absolute component of the vector between
+      the closest points as their distance. Use the norm of this vector instead
+    sum-of-parts: your code uses the sum of the absolute components of the vector
+      between the closest points as their distance. Use the norm of this vector instead
+    in-the-plane 2: your code omits the x component of the vector between the closest
+      points. Use all three components
+    in-the-plane 3: your code omits the y component of the vector between the closest
+      points. Use all three components
     product-of-radii: your code subtracts the square root of the product of the radii.
       Subtract the sum of the radii instead
     squares-of-radii: your code subtracts the squares of the radii. Subtract the radii
       themselves instead
-    over-the-radii: your code divides the distance between the axes by the sum of the
-      radii. Subtract the sum instead
+    over-the-radii: your result is the signed distance divided by the sum of the radii.
+      Omit this division, because the distance should be in metres
     ends-and-middles: your code tests only the endpoints and the midpoints of both axes.
       Use the closest points from task 11.1, because they can be anywhere on the axes
     same-share: your code uses the same parameter for both axes. Use the closest points
@@ -136,16 +138,16 @@ def _(a0, a1, ra, b0, b1, rb):
       distance between the axes. Return `d - (ra + rb)` instead
     root-of-squares 2: your code returns `sqrt(d**2 - (ra + rb)**2)`, where d is the
       distance between the axes. Return `d - (ra + rb)` instead
-    least-part: your code uses the smallest absolute component of `p - o` as the
-      distance between p and o. Use the norm of `p - o` instead
-    parts-with-signs: your code adds the components of `p - o` with their signs. Use the
-      norm of `p - o` instead
-    parts-with-signs 2: your code adds the components of `p - o` with their signs. Use
-      the norm of `p - o` instead
-    mean-square: your code divides the sum of the squares by 3 before it takes the
-      square root. Omit this division
-    lengths-differ: your code uses the difference between the norms of p and o as the
-      distance between p and o. Use the norm of `p - o` instead
+    least-part: your code uses the smallest absolute component of the vector between the
+      closest points as their distance. Use the norm of this vector instead
+    parts-with-signs: your code adds the components of the vector between the closest
+      points with their signs. Use the norm of this vector instead
+    parts-with-signs 2: your code adds the components of the vector between the closest
+      points with their signs. Use the norm of this vector instead
+    mean-square: your distance between the closest points is the root of the mean of the
+      squares. Use the root of their sum instead, because the distance is a norm
+    lengths-differ: your code uses the difference between the norms of the two closest
+      points as their distance. Use the norm of their difference instead
     cut-once: your code subtracts `ra`, clamps the result at 0 and then subtracts `rb`.
       Omit the clamp, because the signed distance can be negative
     one-number-inside: your code always returns -1 for capsules that overlap. Return the
@@ -177,7 +179,8 @@ def _(a0, a1, ra, b0, b1, rb):
       this extension, because subtracting the radii already accounts for the round ends
     starts-and-ends: your code uses the segments from `a0` to `b0` and from `a1` to
       `b1`. Use the axes instead, which run from `a0` to `a1` and from `b0` to `b1`
-    in-the-plane: your code omits the z component of `p - o`. Use all three components
+    in-the-plane: your code omits the z component of the vector between the closest
+      points. Use all three components
     """
     p, o = closest_points_segments(a0, a1, b0, b1)
     axes = np.linalg.norm(p - o)

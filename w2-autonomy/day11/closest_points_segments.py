@@ -77,12 +77,12 @@ def _(a0, a1, b0, b1):
       otherwise the points can lie outside the segments
     clamped-apart: your code clamps s and t independently. If one parameter is clamped,
       the optimal value of the other changes, so recompute the other parameter
-    s-not-again: your code does not recompute s after it clamps t. Recompute s, because
-      the optimal s depends on t
-    s-not-again 2: your code does not recompute t after it clamps s. Recompute t,
-      because the optimal t depends on s
-    s-not-again 3: your code does not recompute t after the last clamp of s. Recompute
-      t, because the optimal t depends on s
+    s-not-again: if t is clamped, your s is not the optimal value for this t. Recompute
+      s after t is clamped, because the optimal s depends on t
+    s-not-again 2: if s is clamped, your t is not the optimal value for this s.
+      Recompute t after s is clamped, because the optimal t depends on s
+    s-not-again 3: your t is not the optimal value for your s. Recompute t after the
+      last change of s, because the optimal t depends on s
     t-not-cut: your code does not clamp t. Clamp t to [0, 1], because otherwise the
       second point can lie outside its segment
     s-not-cut: your code does not clamp s. Clamp s to [0, 1], because otherwise the
@@ -99,13 +99,15 @@ def _(a0, a1, b0, b1):
     end-pairs 2: your code returns the endpoint of the first segment that is nearest to
       the second segment. Compute s instead, because the closest point can lie between
       the endpoints
-    w-sign: your code uses `b0 - a0` as w. Use `w = a0 - b0`, the vector from the start
-      of the second segment to the start of the first
-    d-and-e-swapped: your code swaps d and e. Use d = u . w and e = v . w
+    w-sign: your code uses the vector between the start points with the wrong sign. Use
+      `w = a0 - b0`, the vector from the start of the second segment to the start of the
+      first
+    d-and-e-swapped: your code swaps the dot products of w with u and v. Use d = u . w
+      and e = v . w
     numerator-sign: your code negates s for the infinite lines. Use `s = (b e - c d) /
       (a c - b b)`
-    b-sign: your code negates b. Use b = u . v, so that `a s - b t + d = 0` and `b s - c
-      t + e = 0` at the minimum
+    b-sign: your code uses b = u . v with the wrong sign. At the minimum, `a s - b t + d
+      = 0` and `b s - c t + e = 0`
     across-plus: your code divides by `a c + b b`. Divide by the determinant `a c - b b`
       instead
     across-of-lengths: your code divides by `a c`, which is correct only for
@@ -128,8 +130,8 @@ def _(a0, a1, b0, b1):
       t is 0 at the start of the segment
     s-from-the-end: your code subtracts s u from `a1`. Add s u to `a0` instead, because
       s is 0 at the start of the segment
-    unit-directions: your code normalises u and v. Use u and v themselves, because s and
-      t should be fractions and not lengths in metres
+    unit-directions: your code treats each segment as 1 m long. Use u and v without
+      normalisation, because s and t should be fractions and not lengths in metres
     nearest-to-the-middle: your code returns the midpoint of the second segment and the
       point of the first segment that is nearest to this midpoint. Compute t as well,
       because the closest point can be anywhere on the second segment
@@ -172,12 +174,14 @@ def _(a0, a1, b0, b1):
       the closest point can be anywhere on the first segment
     farthest: your code selects the candidate pair with the largest distance. Select the
       pair with the smallest distance instead
-    one-round: your code starts with s = 0 and computes t and s only once. A single
-      iteration from this start does not always reach the minimum, so start with s for
-      the infinite lines, clamped to [0, 1]
-    one-round 2: your code starts with s = 0.5 and computes t and s only once. A single
-      iteration from this start does not always reach the minimum, so start with s for
-      the infinite lines, clamped to [0, 1]
+    one-round: your code finds the point of the second segment nearest to `a0`, and then
+      the point of the first segment nearest to that point. A single iteration does not
+      always reach the minimum, so start with s for the infinite lines, clamped to [0,
+      1]
+    one-round 2: your code finds the point of the second segment nearest to the midpoint
+      of the first, and then the point of the first segment nearest to that point. A
+      single iteration does not always reach the minimum, so start with s for the
+      infinite lines, clamped to [0, 1]
     difference: your code returns the difference between the two points in both rows.
       Return the points themselves instead
     """
@@ -372,7 +376,7 @@ def least_angle(share):
 
 ALIKE = (
     "your code treats segments at an angle of a few degrees as parallel. Use a much "
-    "smaller limit for `a c - b b`, because such segments have a single closest pair"
+    "smaller limit, because such segments have a single closest pair"
 )
 SELDOM = "hardly a pair in a run is so nearly parallel"
 row.wrong("nearly-parallel", hidden=SELDOM)(least_angle(1e-3))

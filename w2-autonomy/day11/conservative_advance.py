@@ -138,10 +138,11 @@ def _(s, distance, delta_q, radii):
       `radii[i]`, because the product bounds the motion in metres
     dq-forgotten: your code omits `delta_q` in the bound. The bound should grow with
       `delta_q`, because a larger joint displacement moves the arm farther
-    of-what-is-left: your code multiplies the step by `1 - s`. Omit this factor, because
-      `delta_q` is the displacement of the whole motion, from s = 0 to s = 1
-    of-what-is-left 2: your code divides the step by `1 - s`. Omit this division,
+    of-what-is-left: your step contains an extra factor `1 - s`. Omit this factor,
       because `delta_q` is the displacement of the whole motion, from s = 0 to s = 1
+    of-what-is-left 2: your step contains an extra factor `1 / (1 - s)`. Use the whole
+      `delta_q` for the bound, because the step is a fraction of the whole motion, from
+      s = 0 to s = 1
     half-a-step: your code takes only half of the step that the bound allows. Use the
       whole step
     twice-a-step: your code takes twice the step that the bound allows, so the arm can
@@ -162,8 +163,9 @@ def _(s, distance, delta_q, radii):
     stops-inside: your code returns 1 if the arm is already in contact. Return s itself
     stops-inside 2: your code returns 0 if the arm is already in contact. Return s
       itself
-    still-before-touching: your code tests whether the arm moves before it tests for
-      contact. If the arm is in contact, return s even if no joint moves
+    still-before-touching: if no joint moves, your code returns 1 even if the arm is in
+      contact. Return s if the arm is in contact, because the motion is not
+      collision-free
     reach-backwards: your code uses `radii` in reverse order. The first radius belongs
       to joint 1
     reaches-summed: your code multiplies the sum of `abs(delta_q)` by the sum of the
@@ -192,8 +194,8 @@ def _(s, distance, delta_q, radii):
       motion remains
     step-capped 2: your code returns the smaller of `1 - s` and the step. Return the
       smaller of 1 and s + step instead
-    max-for-min: your code uses `max` instead of `min`, so the result is never below 1.
-      Return the smaller of 1 and s + step
+    max-for-min: your code returns the larger of 1 and s + step, so the result is never
+      below 1. Return the smaller of the two, because the motion ends at s = 1
     shares-summed: your code adds the steps that each joint alone would allow. Add the
       products `abs(delta_q[i]) * radii[i]` first, and then divide the distance by this
       sum
@@ -201,7 +203,8 @@ def _(s, distance, delta_q, radii):
       whole step
     careful 2: your code uses only a fraction of the step that the bound allows. Use the
       whole step
-    time: your code returns the number of steps instead of s. Return s + step
+    time: your code returns the bound divided by the distance. Divide the distance by
+      the bound, and add this step to s
     """
     speed = np.abs(delta_q) @ radii
     inside = distance <= 0

@@ -63,15 +63,16 @@ def _(link_lengths, link_radii):
     own-link-only: your code uses only the joint's own link for the bound. Take the
       maximum over the distal links too, because the joint also moves these links
     next-only: your code uses the radius of the next link and ignores the links after
-      it. Use the bound of the next joint instead
+      it. Include these links too, because the joint also moves them
     from-the-base: your code measures the distances from the base. Measure the distances
       from joint i to its distal links instead
     offset-one-late: for joint i, your code uses `link_lengths[i + 1]`. Use
       `link_lengths[i]` instead, the distance from link i to the next link
     offset-of-the-last: your code adds the last entry of `link_lengths`. Omit this
       entry, because no link follows the last link
-    offset-of-the-last 2: your code uses the last entry of `link_lengths` as a radius.
-      Omit this entry, because no link follows the last link
+    offset-of-the-last 2: your code includes a point at the distance of the last entry
+      of `link_lengths` from the last link. Omit this entry, because no link follows the
+      last link
     offset-to-its-own: your code adds the link length to the radius of the joint's own
       link. Add this length only for the links after the joint's own link
     far-forgotten: your code omits `link_radii`, so the bound contains only link
@@ -83,9 +84,8 @@ def _(link_lengths, link_radii):
     largest-far: your code adds the largest link radius of the arm to the distance to
       the last link. Add the radius of each link to the distance to that link, and then
       take the maximum
-    least: your code takes the minimum of the link radius and the sum of the link length
-      and the next joint's bound. Take the maximum instead, because the bound must hold
-      for every distal point
+    least: your code takes the minimum over the distal links. Take the maximum instead,
+      because the bound must hold for every distal point
     not-in-a-row: your code adds the link length to the radius of the joint's own link.
       Add the link length to the bound of the next joint instead, and then take the
       maximum of this sum and the radius
@@ -104,8 +104,8 @@ def _(link_lengths, link_radii):
     far-of-its-own 2: your code adds the radius of the joint's own link to the sum of
       all distal link lengths. Add the radius of each link to the distance to that link,
       and then take the maximum
-    forwards: your code works from the base outwards. Start at the last joint, because a
-      joint moves the links distal to it
+    forwards: your code uses the links between the base and the joint for the bound. Use
+      the links distal to the joint instead, because the joint moves these links
     less-the-base: your code uses the farthest point of the whole arm for every joint.
       For each joint, use only the links that the joint moves
     less-the-base 2: your code measures the distance to the farthest distal point from
@@ -132,9 +132,9 @@ def _(link_lengths, link_radii):
     sum-not-largest: your code adds the link radius to the maximum of the link length
       and the next joint's bound. Add the link length to the next joint's bound first,
       and then take the maximum of this sum and the link radius
-    largest-of-three: your code takes the maximum of the link radius, the link length
-      and the bound of the next joint. Add the link length to the next joint's bound
-      before you take the maximum
+    largest-of-three: your bound is only the largest single radius or length of the
+      distal links. Add the lengths between the joint and each link to the radius of
+      that link before you take the maximum
     largest-far-next: your code adds the largest link radius to the link length. Add the
       bound of the next joint to the link length instead
     mean-not-largest: your code takes the mean over the distal links. Take the maximum

@@ -97,16 +97,16 @@ def _(J_space, p, o, link):
       joints 1 to `link`, because all of them move the link
     columns-before-dropped: your code uses the joints distal to the link. Use joints 1
       to `link` instead
-    rotation-forgotten: your code uses v as the velocity of p. Add omega x p, because
-      the velocity of p is v + omega x p
-    rotation-only: your code uses omega x p as the velocity of p. Add v, because the
+    rotation-forgotten: your gradient omits omega x p. Add this term, because the
       velocity of p is v + omega x p
-    cross-the-other-way: your code computes p x omega. Use omega x p instead, because
-      the velocity of p is v + omega x p
-    normal-not-unit: your code does not normalise `p - o`. Divide `p - o` by its norm,
-      because otherwise the gradient contains an extra factor, the distance
-    normal-squared: your code divides `p - o` by the squared distance. Divide `p - o` by
-      the distance instead
+    rotation-only: your gradient omits v. Add this term, because the velocity of p is v
+      + omega x p
+    cross-the-other-way: your gradient contains omega x p with the wrong sign. Use omega
+      x p and not p x omega, because the velocity of p is v + omega x p
+    normal-not-unit: your gradient contains an extra factor, the distance. Divide `p -
+      o` by its norm, because the direction should be a unit vector
+    normal-squared: your gradient contains an extra factor, 1 divided by the distance.
+      Divide `p - o` by its norm only once
     half: your code multiplies the gradient by 1/2. Omit this factor
     normal-of-p: your code uses the unit vector from the world origin to p. Use the unit
       vector from o to p instead

@@ -147,8 +147,8 @@ def _(qd, grad, distance, gain):
       distance` as the bound
     distance-over-gain: your code divides the distance by the gain. Multiply the
       distance by the gain instead
-    wrong-side: your code reverses the comparison, so it changes only velocities that
-      are allowed. Change `qd` only if `grad @ qd` is below the bound
+    wrong-side: your code changes only velocities that are already allowed. Change `qd`
+      only if `grad @ qd` is below the bound
     leaving-forbidden: your code also limits velocities away from the obstacle. Limit
       only velocities towards the obstacle
     joint-by-joint: your code applies the bound to each joint separately. Apply the

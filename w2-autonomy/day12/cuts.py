@@ -95,8 +95,8 @@ OPTIONS = [
     Option("not-checked", "your code removes points without testing the new edge. "
                           "Remove them only if this edge is free",
            {"check": lambda a, b, world: True}),
-    Option("hit-for-free", "your code inverts the test, so it applies shortcuts whose "
-                           "edge is blocked. Apply a shortcut only if its edge is free",
+    Option("hit-for-free", "your code applies only shortcuts whose edge is blocked. "
+                           "Apply a shortcut only if its edge is free",
            {"check": lambda a, b, world: not edge_free(a, b, world)}),
     Option("only-the-ends-checked", "your code tests only the endpoints of the new "
                                     "edge. Test the whole edge between rows i and j",

@@ -160,8 +160,8 @@ def _(tree, sample, step, world):
       Return the new point even in this case
     index-of-the-new: your code returns the index of the new node. Return the index of
       the nearest node instead
-    away: your code extends the tree away from the sample. Call `steer` with the node
-      first and the sample second
+    away: your code extends the tree away from the sample. Move from the nearest node in
+      the direction `sample - node`
     from-the-sample: your code steers from the sample to the nearest node. Steer from
       this node to the sample instead
     from-the-sample 2: your code steers from the sample to the nearest node. Steer from

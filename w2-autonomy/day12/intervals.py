@@ -106,13 +106,13 @@ OPTIONS = [
             ("one-for-z2", "1 / (2 n)", lambda z, n: 1 / (2 * n)))
     ]),
     *_each("front", [
-        ("z-forgotten", "your code omits the factor z before the square root. "
-                        "Multiply the square root by z", lambda z: 1.0),
-        ("z-squared", "your code multiplies the square root by z^2. Multiply it by z "
-                      "instead",
+        ("z-forgotten", "your half-width omits the factor z. Multiply the square "
+                        "root by z", lambda z: 1.0),
+        ("z-squared", "your half-width contains the factor z^2 instead of z. Multiply "
+                      "the square root by z",
          lambda z: z * z),
-        ("half-width", "your code multiplies the square root by z / 2. Multiply it by "
-                       "z instead",
+        ("half-width", "your half-width contains the factor z / 2 instead of z. "
+                       "Multiply the square root by z",
          lambda z: z / 2),
     ]),
     *_each("noise", [

@@ -161,33 +161,35 @@ OPTIONS = [
         ("ds-forgotten", "your code omits the factor of 2 ds, or this factor is 1. Use "
                          "2 ds with ds = 1 / N instead",
          lambda n: 1.0))),
-    Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2. Pass sd "
-                         "instead",
+    Option("sd-for-sd2", "your code uses sd^2 instead of sd for the bounds on sdd. "
+                         "Pass sd to `path_accel_bounds`",
            {"sd": lambda x: x}),
-    Option("sd-for-sd2", "your code calls `path_accel_bounds` with sd^2 in the forward "
-                         "pass. Pass sd instead",
+    Option("sd-for-sd2", "in the forward pass, your code uses sd^2 instead of sd for "
+                         "the bounds on sdd. Pass sd to `path_accel_bounds`",
            {"forward_sd": lambda x: x}),
-    Option("sd-squared-twice", "your code calls `path_accel_bounds` with sd^4. Pass sd "
-                               "instead",
+    Option("sd-squared-twice", "your code uses sd^4 instead of sd for the bounds on "
+                               "sdd. Pass sd to `path_accel_bounds`",
            {"sd": lambda x: x * x}, alone=True),
-    Option("at-rest", "your code calls `path_accel_bounds` with sd = 0 in both passes. "
-                      "Pass the sd of the point instead",
+    Option("at-rest", "in both passes, your code uses sd = 0 for the bounds on sdd. "
+                      "Pass the sd of the point to `path_accel_bounds`",
            {"sd": lambda x: 0.0 * x}, alone=True),
-    Option("at-rest", "your code calls `path_accel_bounds` with sd = 0 in the forward "
-                      "pass. Pass the sd of the point instead",
+    Option("at-rest", "in the forward pass, your code uses sd = 0 for the bounds on "
+                      "sdd. Pass the sd of the point to `path_accel_bounds`",
            {"forward_sd": lambda x: 0.0 * x}, alone=True),
     Option("start-not-at-rest", "your code starts the motion with the largest sd^2 "
                                 "from which the arm can stop. Start it with sd^2 = 0 "
                                 "instead",
            {"start": "K"}),
-    Option("end-not-at-rest", "your code starts the backward pass with `sd2_max` at "
-                              "the end. Start it with sd^2 = 0 instead",
+    Option("end-not-at-rest", "your motion need not be at rest at the end. Start the "
+                              "backward pass with sd^2 = 0 instead of `sd2_max`",
            {"last": False}),
     *(Option(slug, says, {"passes": one}) for slug, says, one in (
-        ("no-braking", "your code has no backward pass. Add a backward pass that "
-                       "begins with sd^2 = 0 at the last point", "forward"),
-        ("backward-pass-only", "your code has no forward pass. Add a forward pass "
-                               "that begins with sd^2 = 0 at the first point", "back"),
+        ("no-braking", "your motion does not stop at the end. Limit sd^2 by a "
+                       "backward pass that begins with sd^2 = 0 at the last point",
+         "forward"),
+        ("backward-pass-only", "your code limits sd^2 only by the braking before the "
+                               "end. Add a forward pass that begins with sd^2 = 0 at "
+                               "the first point", "back"),
         ("smaller-of-two-passes", "your code computes the two passes independently and "
                                   "takes the minimum. Limit sd^2 in the forward pass "
                                   "by the result of the backward pass instead",
@@ -237,10 +239,11 @@ OPTIONS = [
          lambda A, B, G: (A, 0 * B, G)),
         ("coriolis-sign", "your code reverses the sign of `b`. Use `b` itself",
          lambda A, B, G: (A, -B, G)),
-        ("B-and-G-exchanged", "your code swaps `b` and `c`. Pass the rows in the order "
-                              "`a`, `b`, `c`", lambda A, B, G: (A, G, B)),
-        ("A-and-B-exchanged", "your code swaps `a` and `b`. Pass the rows in the order "
-                              "`a`, `b`, `c`",
+        ("B-and-G-exchanged", "your code swaps `b` and `c`. The term `b` belongs to "
+                              "sd^2, and `c` is the gravity torque",
+         lambda A, B, G: (A, G, B)),
+        ("A-and-B-exchanged", "your code swaps `a` and `b`. The term `a` belongs to "
+                              "sdd, and `b` belongs to sd^2",
          lambda A, B, G: (B, A, G)))),
     *(Option(slug, says, {"most": of}, alone=True) for slug, says, of in (
         ("no-speed-limit", "your code ignores `sd2_max`. Limit sd^2 to `sd2_max` in "
@@ -312,8 +315,8 @@ OPTIONS = [
         ("end-to-start", "your code returns the motion from the end to the start. "
                          "Reverse the motion",
          lambda x: x[::-1]),
-        ("stopped-at-the-end", "your code sets the last entry to 0 only after the "
-                               "two passes. Start the backward pass with 0",
+        ("stopped-at-the-end", "your motion stops abruptly at the last point. Start "
+                               "the backward pass with 0 at this point",
          lambda x: np.append(x[:-1], 0.0)),
         ("mirrored", "your code takes the minimum of the motion and its mirror image. "
                      "Compute both passes instead, because the limits differ in the "

@@ -116,8 +116,9 @@ def _(tree, q):
       all coordinates
     signed-sum: your code adds the differences with their signs, so positive and
       negative differences cancel. Add the squares of the differences instead
-    signed-sum 2: your code adds the differences before it squares them, so positive and
-      negative differences cancel. Square the differences first
+    signed-sum 2: your code compares the nodes by the square or the absolute value of
+      the sum of the differences, so positive and negative differences cancel. Square
+      each difference before you add
     last-of-equals: your code returns the last of several equally near nodes. Return the
       first of them, as `np.argmin` does
     largest-coordinate: your code compares the nodes by their largest absolute
@@ -156,12 +157,14 @@ def _(tree, q):
       smallest distance instead
     second-nearest: your code returns the second-nearest node. Return the nearest node
       instead
-    least-not-kept: your code compares each distance only with the distance of the root.
-      Compare it with the smallest distance so far instead
-    row-before: your code compares each distance only with the distance of the previous
-      row. Compare it with the smallest distance so far instead
-    first-that-is-nearer: your code stops at the first node that is nearer to q than the
-      root is. Compare all nodes
+    least-not-kept: your code returns the last node that is nearer to q than the root
+      is. Return the nearest of all nodes. In a loop, compare each distance with the
+      smallest distance so far
+    row-before: your code returns the last node that is nearer to q than the node before
+      it. Return the nearest of all nodes. In a loop, compare each distance with the
+      smallest distance so far
+    first-that-is-nearer: your code returns the first node that is nearer to q than the
+      root is. Return the nearest of all nodes
     rounded: your code rounds the distances before it compares them. Omit the rounding,
       because it can make two different distances equal
     rounded 2: your code rounds the distances before it compares them. Omit the

@@ -194,8 +194,8 @@ def _(a, b, c, limits, sd):
       joint can limit sdd
     first-joint-only 2: your code uses only the first joint with a nonzero `a`. Use all
       joints, because every joint can limit sdd
-    last-joint-only: your code uses only the last joint. Does your loop overwrite the
-      earlier bounds?
+    last-joint-only: your code uses only the last joint. Use all joints, because every
+      joint can limit sdd. In a loop, keep the bounds of the earlier joints
     half-the-limit: your code uses only half of each torque limit. Use the whole limit
     not-divided: your code returns torques. Divide the torques by `a`
     times-a: your code multiplies the torques by `a`. Divide the torques by `a` instead
@@ -239,12 +239,13 @@ def _(a, b, c, limits, sd):
       lower bounds and the minimum of the upper bounds instead
     sum-of-joints: your code adds the bounds of the joints. Take the maximum of the
       lower bounds and the minimum of the upper bounds instead
-    from-zero: your code starts both bounds at 0. Start the lower bound at -inf and the
-      upper bound at inf
-    last-joint-only 2: your code overwrites the bounds at each joint. Keep the largest
-      lower bound and the smallest upper bound of all joints
-    never-narrowed: your code swaps `min` and `max`, so the bounds stay infinite. Keep
-      the largest lower bound and the smallest upper bound
+    from-zero: your lower bound is never below 0, and your upper bound is never above 0.
+      Use only the bounds of the joints. In a loop, start with -inf and inf
+    last-joint-only 2: your code returns the bounds of the last joint. Return the
+      largest lower bound and the smallest upper bound of all joints. In a loop, keep
+      the bounds of the earlier joints
+    never-narrowed: your bounds are always -inf and inf. Return the largest lower bound
+      and the smallest upper bound of the joints
     zero-kept-in: your code returns an interval that always contains 0. Return the
       bounds themselves, because sdd = 0 is not always permitted
     six-joints: your code uses only the first six joints. Use all joints, because the

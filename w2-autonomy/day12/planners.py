@@ -162,13 +162,13 @@ def one_tree(
 
 
 OPTIONS = [
-    Option("swap-when-it-grew", "your code swaps the trees only after a sample that "
-                                "adds a node to a tree. Swap the trees after every "
-                                "sample",
+    Option("swap-when-it-grew", "your code extends the same tree again after a sample"
+                                " whose edge is blocked. Alternate the two trees "
+                                "after every sample",
            {"turn": "grew"}),
-    Option("swap-when-it-failed", "your code swaps the trees only after a sample "
-                                  "whose edge is blocked. Swap the trees after every "
-                                  "sample",
+    Option("swap-when-it-failed", "your code extends the same tree again after a "
+                                  "sample that adds a node. Alternate the two trees "
+                                  "after every sample",
            {"turn": "failed"}),
     Option("trees-not-swapped", "your code extends the start's tree towards every "
                                 "sample. Extend the goal's tree towards samples 1, 3, "

@@ -110,10 +110,10 @@ def _(start, goal, world, samples, step, path):
 
 @row.wrongs
 def _(start, goal, world, samples, step):
-    """swap-when-it-grew: your code swaps the trees only after a sample that adds a node
-      to a tree. Swap the trees after every sample
-    swap-when-it-failed: your code swaps the trees only after a sample whose edge is
-      blocked. Swap the trees after every sample
+    """swap-when-it-grew: your code extends the same tree again after a sample whose
+      edge is blocked. Alternate the two trees after every sample
+    swap-when-it-failed: your code extends the same tree again after a sample that adds
+      a node. Alternate the two trees after every sample
     trees-not-swapped: your code extends the start's tree towards every sample. Extend
       the goal's tree towards samples 1, 3, 5 and so on
     goal-first: your code extends the goal's tree towards sample 0. Extend the start's

@@ -213,14 +213,12 @@ def _others(a, b, discs, part, away):
     }
 )
 def _(a, b, discs):
-    """line-for-segment: your code does not clamp the parameter of the nearest point.
-      Clamp it to [0, 1], because otherwise a disc beyond an endpoint can block the edge
-    only-one-end-cut: your code does not clamp the parameter of the nearest point if
-      this parameter is negative. A negative parameter belongs to a point before `a`,
-      where the edge begins, so clamp the parameter to [0, 1]
-    only-one-end-cut 2: your code does not clamp the parameter of the nearest point if
-      this parameter is above 1. Such a parameter belongs to a point beyond `b`, where
-      the edge ends, so clamp the parameter to [0, 1]
+    """line-for-segment: your code treats the edge as an infinite line, so a disc beyond
+      an endpoint can block the edge. Clamp the parameter of the nearest point to [0, 1]
+    only-one-end-cut: your code extends the edge beyond `a` without limit. Clamp the
+      parameter of the nearest point to [0, 1], because the edge begins at `a`
+    only-one-end-cut 2: your code extends the edge beyond `b` without limit. Clamp the
+      parameter of the nearest point to [0, 1], because the edge ends at `b`
     ends-only: your code tests only the endpoints of the edge. Test the whole edge,
       because it can cross a disc between its endpoints
     new-end-only: your code tests only the endpoint `b`. Test the whole edge
@@ -256,8 +254,8 @@ def _(a, b, discs):
       centre to this endpoint, because the endpoint can lie in the disc
     first-disc-only: your code tests only the first disc. Test every disc, because the
       edge must miss all of them
-    last-disc-only: your code tests only the last disc. Does your loop overwrite the
-      results of the earlier discs?
+    last-disc-only: your code tests only the last disc. Test every disc. In a loop, keep
+      the results of the earlier discs
     nearest-centre: your code tests only the disc whose centre is nearest to the edge.
       Test every disc, because a disc farther away can be larger
     all-must-hit: your code reports the edge as free as soon as it misses one disc.
@@ -380,8 +378,9 @@ def _(a, b, discs):
 
 @row.wrong(hidden="the lab has no edge of no length")
 def divided_by_nothing(a, b, discs):
-    """your code always reports an edge of length 0 as blocked. Its parameter is 0 / 0 =
-    NaN, and a comparison with NaN is False. Treat the edge as a point"""
+    """your code always reports an edge of length 0 as blocked. Treat such an edge as a
+    point. If its parameter is 0 / 0 = NaN, each comparison with the distance is
+    False"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -391,8 +390,9 @@ def divided_by_nothing(a, b, discs):
 
 @row.wrong("divided-by-nothing")
 def _(a, b, discs):
-    """your code always reports an edge of length 0 as free. Its parameter is 0 / 0 =
-    NaN, and a comparison with NaN is False. Treat the edge as a point"""
+    """your code always reports an edge of length 0 as free. Treat such an edge as a
+    point. If its parameter is 0 / 0 = NaN, each comparison with the distance is
+    False"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)
@@ -402,9 +402,9 @@ def _(a, b, discs):
 
 @row.wrong
 def touching_and_no_length(a, b, discs):
-    """your code reports an edge that touches a disc as free, and it divides by 0 for an
-    edge of length 0. Report a touching edge as blocked, and treat an edge of length 0
-    as a point"""
+    """your code reports an edge that touches a disc as free, and it always reports an
+    edge of length 0 as free. Report a touching edge as blocked, and treat an edge of
+    length 0 as a point"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)

@@ -152,8 +152,8 @@ def _(path, world, pairs):
       Keep row i, and leave neighbouring rows unchanged
     two-apart-left: your code skips pairs of waypoints whose indices differ by 2. Test
       these pairs too, because the waypoint between them may be removable
-    hit-for-free: your code inverts the test, so it applies shortcuts whose edge is
-      blocked. Apply a shortcut only if its edge is free
+    hit-for-free: your code applies only shortcuts whose edge is blocked. Apply a
+      shortcut only if its edge is free
     unchanged: your code returns the original path. Apply each shortcut whose edge is
       free
     all-but-the-ends: your code returns only the start and the end of the path. Remove a

@@ -116,16 +116,16 @@ def _(q, target, step):
     unit-step: your code adds a displacement of norm 1 to q. Use the argument `step` as
       the norm instead
     half-a-step: your code moves only half a step. Use the whole step
-    limit-the-other-way: your code swaps the two cases. Return the target if it is
-      within one step, and take a full step otherwise
+    limit-the-other-way: your code returns the target if it is more than one step away,
+      and it takes a full step otherwise. Swap the two cases
     from-the-origin: your code starts the step at the origin. Start the step at q
       instead
     square-compared: your code compares the squared distance with `step`. Compare the
       distance itself instead
     two-coordinates: your code uses only the first two coordinates for the distance. Use
       all coordinates
-    root-of-the-mean: your code divides the sum of the squares by the number of
-      coordinates before it takes the square root. Omit this division
+    root-of-the-mean: your code uses the root of the mean of the squares as the
+      distance. Use the root of their sum instead, because the distance is a norm
     length-of-the-target: your code divides the displacement by the norm of the target.
       Divide it by the norm of `target - q` instead
     direction-from-the-origin: your code uses the direction from the origin to the

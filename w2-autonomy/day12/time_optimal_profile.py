@@ -110,18 +110,19 @@ def bobrow(a, b, c, limits, sd2_max):
 
 @row.wrongs
 def _(a, b, c, limits, sd2_max):
-    """no-braking: your code has no backward pass, so the motion cannot stop at the end.
-      Add a backward pass that begins with sd^2 = 0 at the last point
-    no-braking 2: your code has no backward pass, so the motion stops abruptly at the
-      end. Add a backward pass that begins with sd^2 = 0 at the last point
-    end-not-at-rest: your code starts the backward pass with `sd2_max` at the end. Start
-      it with sd^2 = 0 instead
+    """no-braking: your motion does not stop at the end. Limit sd^2 by a backward pass
+      that begins with sd^2 = 0 at the last point
+    no-braking 2: your motion stops abruptly at the end. Limit sd^2 by a backward pass
+      that begins with sd^2 = 0 at the last point
+    end-not-at-rest: your motion need not be at rest at the end. Start the backward pass
+      with sd^2 = 0 instead of `sd2_max`
     start-not-at-rest: your code starts the motion with the largest sd^2 from which the
       arm can stop. Start it with sd^2 = 0 instead
-    backward-pass-only: your code has no forward pass, so the motion does not start at
-      rest. Add a forward pass that begins with sd^2 = 0 at the first point
-    backward-pass-only 2: your code has no forward pass, so sd^2 jumps from 0 to its
-      maximum. Add a forward pass that begins with sd^2 = 0 at the first point
+    backward-pass-only: your code limits sd^2 only by the braking before the end, so the
+      motion does not start at rest. Add a forward pass that begins with sd^2 = 0 at the
+      first point
+    backward-pass-only 2: your sd^2 jumps from 0 to its maximum after the first point.
+      Add a forward pass that begins with sd^2 = 0 at the first point
     smaller-of-two-passes: your code computes the two passes independently and takes the
       minimum. Limit sd^2 in the forward pass by the result of the backward pass instead
     ds-for-2-ds: your code adds `ds * sdd` to sd^2 in each step. Add `2 * ds * sdd`
@@ -130,11 +131,12 @@ def _(a, b, c, limits, sd2_max):
       instead
     points-for-steps: your code uses ds = 1 / (N + 1). Use ds = 1 / N, because N + 1
       points have N steps between them
-    sd-for-sd2: your code calls `path_accel_bounds` with sd^2. Pass sd instead
-    sd-for-sd2 2: your code calls `path_accel_bounds` with sd^2 in the backward pass.
-      Pass sd instead
-    sd-for-sd2 3: your code calls `path_accel_bounds` with sd^2 in the forward pass.
-      Pass sd instead
+    sd-for-sd2: your code uses sd^2 instead of sd for the bounds on sdd. Pass sd to
+      `path_accel_bounds`
+    sd-for-sd2 2: in the backward pass, your code uses sd^2 instead of sd for the bounds
+      on sdd. Pass sd to `path_accel_bounds`
+    sd-for-sd2 3: in the forward pass, your code uses sd^2 instead of sd for the bounds
+      on sdd. Pass sd to `path_accel_bounds`
     most-of-the-point-before: in the forward pass, your code limits sd^2 at point i + 1
       by the maximum at point i. Use the maximum at point i + 1 instead
     no-speed-limit: your code ignores `sd2_max`. Limit sd^2 to `sd2_max` in both passes,

@@ -72,9 +72,9 @@ def by_pairs(J_space, masses, coms, g, *, first=max, swapped=False):
 
 @row.wrongs
 def _(J_space, masses, coms, g):
-    """sign: your code negates the stiffness. Use g x omega and not omega x g, because,
-      relative to the links, gravity rotates in the direction opposite to the rotation
-      of the joint
+    """sign: your code negates the stiffness. Check the order of the factors in g x
+      omega and the sign of the result, because, relative to the links, gravity rotates
+      in the direction opposite to the rotation of the joint
     gravity-not-turned: your code uses g instead of g x omega, so each column is the
       gravity torque itself. Use g x omega, because the stiffness is the derivative of
       this torque
@@ -102,24 +102,24 @@ def _(J_space, masses, coms, g):
       symmetric
     upper-half-sign: your code negates the entries above the diagonal. Copy them from
       below the diagonal without a change of sign, because the matrix is symmetric
-    half-beside-the-diagonal: your code takes the mean of a lower triangular matrix and
-      its transpose, which halves the off-diagonal entries. Add the two matrices
-      instead, and then halve the diagonal
+    half-beside-the-diagonal: your off-diagonal entries are too small by a factor of 2.
+      If your code adds a triangular matrix and its transpose, halve only the diagonal
+      of the sum
     diagonal-zero: your code leaves the diagonal at 0. Compute the diagonal entries too,
       because the rotation of each joint also changes the torque at that joint
     not-symmetrised: your code also uses the formula above the diagonal. Copy the lower
       triangle to the upper one instead, because the formula holds only on and below the
       diagonal
-    not-symmetrised 2: your code also uses the formula above the diagonal and transposes
-      the result. Copy the lower triangle to the upper one instead, because the formula
-      holds only on and below the diagonal
+    not-symmetrised 2: your entries above the diagonal are correct, but the entries
+      below the diagonal are wrong. Copy the upper triangle to the lower one, because
+      the matrix is symmetric
     averaged: your code averages the two triangles. Copy the lower triangle to the upper
       one instead, because the formula holds only on and below the diagonal
-    other-half: your code copies the upper triangle to the lower one. Copy the lower
-      triangle to the upper one instead, because the formula holds only on and below the
-      diagonal
-    diagonal-doubled: your code adds two triangles that both contain the diagonal, which
-      doubles the diagonal. Include the diagonal in only one of them
+    other-half: both triangles of your result contain the values of the formula above
+      the diagonal. Use the values below the diagonal in both triangles, because the
+      formula holds only on and below the diagonal
+    diagonal-doubled: your diagonal entries are twice the correct values. If your code
+      adds two triangles, include the diagonal in only one of them
     diagonal-only: your code leaves all off-diagonal entries at 0. Compute them too,
       because the rotation of one joint also changes the torque at other joints
     only-z: your code uses only the z component of g. Use the whole vector, because

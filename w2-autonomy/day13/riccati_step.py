@@ -31,8 +31,9 @@ def _(P, A, B, Q, R):
       P B in the equation for K
     R-once: your code omits the cost of the input in the new P. Add K^T R K to `Q + (A -
       B K)^T P (A - B K)`
-    u-counted-twice: your code counts the cost of the input twice. Omit K^T R K, because
-      `Q + A^T P (A - B K)` already contains this cost
+    u-counted-twice: your code counts the cost of the input twice. Add K^T R K once to
+      `Q + (A - B K)^T P (A - B K)`, or not at all to `Q + A^T P (A - B K)`, which
+      already contains this cost
     K-of-the-new-P: your code computes the gain from the new P. Use the argument P
       instead, which is the cost-to-go of the next state
     gain-sign: your code returns -K. Return K itself, because the minus sign is already

@@ -79,8 +79,7 @@ def _(mean, std, noise, scores, elite):
       second-best one. Include the best sample
     nan-is-zero: your code treats NaN as a score of 0. Treat NaN as worse than all other
       scores
-    elite-one-less: your elite contains one sample too few. Does a slice in your code
-      end too early?
+    elite-one-less: your elite contains one sample too few. Use the best `elite` samples
     weighted: your code weights the elite samples by their rank. Give all elite samples
       the same weight
     weighted 2: your code weights the elite samples by their scores. Give all elite

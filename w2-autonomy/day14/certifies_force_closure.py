@@ -109,22 +109,23 @@ def _(W, weights):
     balance-absolute: your code uses an absolute tolerance for W w, as in `np.allclose(W
       @ weights, 0)`. For each row, use 1e-9 times the sum of |W_ij w_j| in that row, so
       that the result does not depend on the units
-    balance-roughly: your code uses a tolerance of 1e-4 times the sum of |W_ij w_j| for
-      W w. Use 1e-9 times this sum instead
+    balance-roughly: your tolerance for W w is too large, for example 1e-4 times the sum
+      of |W_ij w_j|. Use 1e-9 times this sum instead
     balance-of-all: your code uses one tolerance for all rows of W w. Compare each row
       with 1e-9 times its own sum of |W_ij w_j| instead
     first-row-only: your code tests only the first row of W w. Test all six rows
-    balance-without-weights: your code uses 1e-9 times the largest absolute entry of
-      each row of W as the tolerance. For each row, use 1e-9 times the sum of |W_ij w_j|
-      in that row instead
-    rank-absolute: your code compares the singular values with 1e-9. Compare them with
-      1e-9 times the largest one, so that the result does not depend on the units
-    determinant: your code tests the rank with det(W W^T). Compare the singular values
-      with 1e-9 times the largest one, so that the result does not depend on the units
-    nothing-may-be-left: your code tests whether W w is exactly 0. Compare W w with a
-      tolerance, because rounding leaves about 1e-16 even if the forces balance
-    rank-by-rounding: your code uses NumPy's default tolerance for the rank. Use 1e-9
-      times the largest singular value instead
+    balance-without-weights: your tolerance for each row of W w does not depend on the
+      weights. For each row, use 1e-9 times the sum of |W_ij w_j| in that row instead
+    rank-absolute: your code uses an absolute limit for the rank, such as 1e-9 for the
+      singular values. Compare the singular values with 1e-9 times the largest one, so
+      that the result does not depend on the units
+    determinant: your code tests the rank with det(W W^T) or with another value that
+      depends on the units. Compare the singular values with 1e-9 times the largest one
+    nothing-may-be-left: your tolerance for W w is 0 or too small. Use 1e-9 times the
+      sum of |W_ij w_j| in each row, because rounding leaves about 1e-16 even if the
+      forces balance
+    rank-by-rounding: your tolerance for the rank is too small, as NumPy's default
+      tolerance is. Use 1e-9 times the largest singular value
     weights-not-used: your code tests the unweighted sum of the columns of W. Test W w
       instead
     forces-only: your code tests only the forces in W w. Test the moments too, because

@@ -57,15 +57,16 @@ def _(normal, mu, k):
       absolute component. Use the axis with the smallest absolute component instead
     signed-least: your code uses the coordinate axis along which n has the smallest
       signed component. Compare the absolute values of the components instead
-    axis-x-n: your code uses axis x n for `a`. Use n x axis instead, because otherwise
-      the first edge lies on the opposite side
-    axis-itself: your code uses the projection of the axis onto the tangent plane for
-      `a`. Use n x axis instead, which is perpendicular to this projection
+    axis-x-n: your edges are rotated by pi about the normal. Use n x axis for `a` and
+      not axis x n
+    axis-itself: your edges are rotated by -pi/2 about the normal. Use n x axis for `a`,
+      which is perpendicular to the projection of the axis onto the tangent plane
     last-is-first: your code ends with t = 2 pi, so the last edge is equal to the first.
       End with `t = 2 pi (k - 1) / k` instead
     degrees: your code uses t in degrees. Use t = 2 pi i / k instead, because `np.cos`
       and `np.sin` expect radians
-    from-one: your code begins with i = 1. Begin with i = 0 instead
+    from-one: your first edge is the edge for t = 2 pi / k. Begin with i = 0, for which
+      t = 0
     mu-on-the-normal: your code multiplies the normal by mu. Multiply the tangential
       part by mu instead
     half-steps: your code shifts t by half the spacing between edges. Use t = 0 for the

@@ -64,11 +64,11 @@ def _(T_seen, noise):
       instead, because the cube may be rotated by more than pi/2
     noise-after-the-fold: your code adds the noise after the reduction, so the yaw can
       leave [-pi/4, pi/4). Add the noise before the reduction
-    fmod: your code uses `np.fmod`, whose result is negative for a negative argument.
-      Use `%` or `np.mod` instead
+    fmod: your reduction rounds towards 0, as `np.fmod` does, so some results are below
+      -pi/4. Use `%` or `np.mod` instead
     transposed: your code negates the yaw, as with the transposed rotation matrix. Use
       `np.arctan2(R[1, 0], R[0, 0])`
-    arccosine: your code uses arccos(R[0, 0]) as the yaw, which is never negative. Use
+    arccosine: your code uses a yaw that is never negative, such as arccos(R[0, 0]). Use
       `np.arctan2(R[1, 0], R[0, 0])` instead
     arcsine: your code uses arcsin(R[1, 0]) as the yaw, which covers only [-pi/2, pi/2].
       Use `np.arctan2(R[1, 0], R[0, 0])` instead

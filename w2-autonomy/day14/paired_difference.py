@@ -24,10 +24,10 @@ def _(first, second):
     """unpaired: your code adds the variances of the two policies, as for independent
       samples. Use the standard deviation of the differences, because both policies ran
       on the same cubes
-    n-minus-one: your code divides by `n - 1` in the standard deviation. Divide by n
-      instead
-    n-minus-one 2: your code divides by `sqrt(n - 1)` in the standard error. Divide by
-      `sqrt(n)` instead
+    n-minus-one: your code divides by `n - 1` in the standard deviation, or by `sqrt(n -
+      1)` in the standard error. Divide by n and by `sqrt(n)` instead
+    n-minus-one 2: your code divides by `n - 1` in the standard deviation, or by `sqrt(n
+      - 1)` in the standard error. Divide by n and by `sqrt(n)` instead
     root-of-the-mean-square: your code takes the standard deviation about 0. Take the
       standard deviation about the mean difference instead
     interval: your code returns 1.96 standard errors as the second result. Return one

@@ -41,8 +41,8 @@ def _(heights, target, cap):
       cube was thrown
     below-the-floor-is-lost: your code returns -1 for a height below the floor. Return 0
       instead
-    nan-passes: your code returns NaN for a height of NaN, because every comparison with
-      NaN is False. Test the heights with `np.isfinite`
+    nan-passes: your code returns NaN for a height of NaN. Return -1 for every height
+      that is not finite, and test the heights with `np.isfinite`
     nan-passes 2: your code returns NaN for a height of NaN, and 0 for a height of minus
       infinity. Test the heights with `np.isfinite`
     nan-is-zero: your code returns 0 for a height of NaN. Return -1, because the

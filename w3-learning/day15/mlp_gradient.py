@@ -84,19 +84,19 @@ def _(x, target, W1, b1, W2, b2, W3, b3):
     tanh-at-the-end 2: your code applies tanh to the output and multiplies the gradient
       by the derivative of this tanh. The last layer of `mlp` is linear, so omit this
       tanh and its derivative
-    divided-twice: your code divides every gradient by the number of rows a second time.
-      The gradient with respect to the output already contains the factor 1 / (n * m),
-      so sum over the rows without dividing
-    weights-mean: your code averages the gradients with respect to the weights over the
-      rows. The gradient with respect to the output already contains the factor 1 / (n *
-      m), so sum over the rows instead
+    divided-twice: all your gradients contain an extra factor 1 / n, where n is the
+      number of rows. Divide by n * m only once, and sum over the rows without another
+      division
+    weights-mean: your gradients with respect to the weights contain an extra factor 1 /
+      n, where n is the number of rows. Divide by n * m only once, and sum over the rows
+      without another division
     slope-at-the-end: your gradient with respect to the output contains the derivative
       of tanh as a factor. The last layer is linear, so omit this factor
     transposed: your gradients with respect to the weights are transposed. Each gradient
       should have the shape of its weight matrix
-    bias-mean: your code averages the gradients with respect to the biases over the
-      rows. The gradient with respect to the output already contains the factor 1 / (n *
-      m), so sum over the rows instead
+    bias-mean: your gradients with respect to the biases contain an extra factor 1 / n,
+      where n is the number of rows. Divide by n * m only once, and sum over the rows
+      without another division
     summed-loss: your function returns the gradients of the sum of the squared errors.
       Divide these gradients by n * m, because the loss is the mean of the squared
       errors

@@ -53,8 +53,9 @@ def _(action, episode):
       action only within an episode
     start-from-0: your code includes the first row of each episode and uses 0 as the
       previous action of this row. Omit the row, because it has no previous action
-    counted-as-0: your code sets each change from one episode to the next to 0 and
-      includes these zeros in the mean. Exclude these changes from the mean instead
+    counted-as-0: your code divides the sum of the squared changes by the number of all
+      pairs of adjacent rows. Exclude the pairs of rows from two episodes from this
+      number too
     summed-over-columns: your code sums the squared changes over the columns. Take the
       mean over the columns instead, as `mse` does
     mean-of-means: your code computes the mean squared change of each episode and then

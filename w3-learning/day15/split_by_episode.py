@@ -36,12 +36,12 @@ def _(episode, held_out):
       `held_out`
     as-many-rows: your code holds out the last `len(held_out)` rows, which can split an
       episode. Hold out all rows of each held-out episode instead
-    sixty-rows: your code divides the row index by 60 to obtain the episode number. Use
-      the numbers in `episode` instead, because an episode need not have 60 rows
+    sixty-rows: your code assumes that each episode has 60 rows. Use the numbers in
+      `episode` instead, because an episode need not have 60 rows
     training-rows: your function returns True for the training rows. Return True for the
       held-out rows instead
-    swapped: your code swaps the arguments of `np.isin`, so the result has one entry per
-      held-out episode. Return one entry per row
+    swapped: your result has one entry per held-out episode, as `np.isin` with swapped
+      arguments returns. Return one entry per row
     indices: your code returns the indices of the held-out rows. Return a mask instead,
       with True or False for every row
     as-a-range: your code holds out all episodes from the smallest to the largest number

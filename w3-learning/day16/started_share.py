@@ -33,12 +33,12 @@ def _(wait, K):
       `wait` and 1 from this entry on. Average the chunks of all wait + 1 rows instead
     one-entry-late: your function returns j / (wait + 1). Use j + 1 instead of j,
       because entry 0 is already at full speed in the row with 0 remaining steps
-    moving-row-omitted: your code averages only over the `wait` rows of the pause.
-      Include the first row in which the demonstrator moves, because it has the same
-      observation
-    moving-row-omitted 2: your code averages only over the `wait` rows of the pause.
-      Include the first row in which the demonstrator moves, because it has the same
-      observation
+    moving-row-omitted: your function returns j / wait, limited to 1. Use (j + 1) /
+      (wait + 1), because the first row in which the demonstrator moves has the same
+      observation as the `wait` rows of the pause
+    moving-row-omitted 2: your function returns j / wait, limited to 1. Use (j + 1) /
+      (wait + 1), because the first row in which the demonstrator moves has the same
+      observation as the `wait` rows of the pause
     one-entry-early: your function returns (j + 2) / (wait + 1). Use j + 1 instead of j
       + 2, because entry 0 is at full speed in one row only
     independent-starts: your code assumes that the motion starts with probability 1 /

@@ -61,9 +61,9 @@ def _(abars, sigma):
     start-1: your code starts from the standard deviation 1. Start from the standard
       deviation of the noisy data at the first level instead, which is the norm of the
       first vector
-    lengths-kept: your code divides each dot product by the square of the first vector's
-      norm. Divide each dot product by the norms of both vectors instead, which gives
-      the cosine of the angle
+    lengths-kept: your result contains an extra factor, the norm of the last vector
+      divided by the norm of the first. Divide each dot product by the norms of both
+      vectors, which gives the cosine of the angle
     dots: your code multiplies the dot products of successive vectors. Divide each dot
       product by the norms of both vectors first, which gives the cosine of the angle
     """

@@ -37,8 +37,8 @@ def _(rng):
 
 @row.wrongs(hidden={"near-1": "the lab has no factor near 1, except 1 itself"})
 def _(a, step, T):
-    """always-linear: your code only adds `step` in each step. Multiply the previous
-      error by a before you add `step`
+    """always-linear: your function returns `step * T` for every a. In each step,
+      multiply the previous error by a before you add `step`
     limit: your function returns `step / (1 - a)`, which is the limit of the error for
       infinitely many steps if |a| < 1. Return the sum of the first T terms of the
       geometric series instead

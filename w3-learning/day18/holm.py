@@ -49,8 +49,8 @@ def _(p):
     benjamini-hochberg: your code uses the method of Benjamini and Hochberg, whose
       limits are 0.05 / m, 0.10 / m, and so on. Use Holm's limits instead (0.05 / m,
       0.05 / (m - 1), and so on)
-    not-equal: your code requires each p-value to be smaller than its limit. Use `<=`
-      instead of `<`, because a p-value that is equal to its limit is significant
+    not-equal: your code requires each p-value to be smaller than its limit. Accept
+      equality too, because a p-value that is equal to its limit is significant
     one-later: your code starts with the limit 0.05 / (m - 1). Compare the smallest
       p-value with 0.05 / m, the next p-value with 0.05 / (m - 1), and so on
     unsorted: your code compares the p-values in the order of the argument. Sort the

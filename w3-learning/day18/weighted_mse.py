@@ -40,8 +40,8 @@ def _(pred, target, weight):
       mean, so divide both the loss and the gradient by this sum
     summed-over-columns: your code sums the squared errors over the columns. Take the
       mean over the columns instead, as `mse` does
-    weight-squared: your code multiplies each error by its weight before squaring.
-      Square the error first, and then multiply the squared error by the weight
+    weight-squared: your loss and its gradient contain the squares of the weights.
+      Square only the errors, and multiply each squared error by its weight
     unweighted: your code ignores the weights. Multiply the mean squared error of each
       row by its weight, and divide the sum over the rows by the sum of the weights
     gradient-unweighted: your gradient ignores the weights. Multiply each row of the

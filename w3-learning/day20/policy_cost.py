@@ -31,11 +31,12 @@ row.cases(
 @row.wrongs(hidden={"noise-shared": "the cart has a single input"})
 def _(K, std, A, B, Q, R, S, T):
     """noise-not-propagated: your code omits the effect of the noise on the state. Add
-      std^2 B B^T to E[x x^T] in each step
+      std^2 B B^T to E[x x^T] in each step, or std^2 tr(B^T P B) to the cost, where P is
+      the cost-to-go matrix of the next state
     noise-costs-nothing: your code omits the cost of the noise in the input. Add std^2
       tr(R) to the cost in each step
-    control-free: your code omits K^T R K, the cost of the mean input. Multiply E[x x^T]
-      by Q + K^T R K instead of Q
+    control-free: your code omits K^T R K, the cost of the mean input. Use Q + K^T R K
+      instead of Q for the cost of each step
     one-step-more: your code adds the cost of the state after the last step as well. Add
       only the costs of the T states before the steps
     without-the-start: your code begins the sum with the state after the first step.
@@ -44,8 +45,9 @@ def _(K, std, A, B, Q, R, S, T):
       because the mean input is u = -K x
     noise-once: your code adds the cost of the noise in the input only once. Add std^2
       tr(R) in each of the T steps
-    transposed: your code updates X = E[x x^T] to M^T X M, where M = A - B K. The mean
-      of the next state is M x, so use M X M^T instead
+    transposed: your code uses M^T X M for X = E[x x^T], or M P M^T for a cost-to-go
+      matrix P, where M = A - B K. Use M X M^T or M^T P M instead, because the mean of
+      the next state is M x
     noise-shared: in E[x x^T], your code uses the same noise for all inputs. Add std^2 B
       B^T instead, because the entries of z are independent
     last-state-added: your code adds the cost x^T Q x of the state after the last step.

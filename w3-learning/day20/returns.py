@@ -61,14 +61,15 @@ def _(reward, gamma, last):
     """from-the-start: your code sums the rewards from the first step up to each step.
       The return of a step should contain only the reward of this step and the later
       rewards
-    from-the-start 2: your loop runs from the first step to the last. The return of a
-      step contains the return of the next step, so begin at the last step
+    from-the-start 2: your code computes the return of a step from the return of the
+      previous step. The return of a step contains the return of the next step, so begin
+      at the last step
     from-the-start 3: your code sums the reward of each step and the earlier rewards.
       The return of a step should contain the later rewards instead
-    first-step-left-out: your loop ends before row 0, the first step. The loop should
-      compute the return of row 0 as well
-    first-step-left-out 2: your loop ends before row 0, the first step, so the result in
-      this row stays 0. The loop should compute the return of row 0 as well
+    first-step-left-out: your result in row 0 is the reward and not the return. Compute
+      the return of the first step as well. A loop should include row 0
+    first-step-left-out 2: your result in row 0 is 0. Compute the return of the first
+      step as well. A loop should include row 0
     last-by-the-horizon: your code multiplies `last` by gamma^T in the return of each
       step. In the return of step t, multiply `last` by gamma^(T - t) instead
     last-forgotten: your code omits `last`, the value of the state after the last step.

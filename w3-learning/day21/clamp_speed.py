@@ -49,9 +49,8 @@ def _(v, limit):
       the velocity by limit / speed instead, so that its norm is the limit
     at-rest: your code divides a zero velocity by its norm. Divide by the norm only if
       the norm is above the limit
-    zero-limit: your code divides the speed by the limit, and for a zero velocity and
-      the limit 0 this quotient is 0 / 0. Divide by the speed instead, and only if the
-      speed is above the limit
+    zero-limit: for a zero velocity and the limit 0, your code divides 0 by 0. Divide by
+      the speed, and only if the speed is above the limit
     squared-speed: your code compares the squared norm with the limit. Compare the norm
       with the limit instead, because the limit is a speed
     first-two: your code computes the norm from the first two entries only. Use all
