@@ -111,7 +111,7 @@ def test_of_single_numbers_it_is_said_whether_a_function_stops(wrong, how):
     assert found.mistake == "one-number-as-gain"
     assert found.message.startswith(
         f"Your function is correct if kp and kd have 7 entries each. It {how} if kp "
-        "and kd are single numbers, such as the lab's KP and KD. Which"
+        "and kd are single numbers, such as the lab's KP and KD. A single number has"
     )
 
 
