@@ -79,8 +79,8 @@ def sum_of(k, luu):
 
 @row.wrongs
 def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
-    """mu-in-k-only: your code uses `mu` only in k. Add `mu` to the diagonal of `Quu`
-      before you use `Quu` in any equation
+    """mu-in-k-only: your code uses `mu` for the gain k, but not in every other
+      equation. Add `mu` to the diagonal of `Quu` before you use `Quu` in any equation
     mu-in-k-only 2: your code omits `mu` in K. Add `mu` to the diagonal of `Quu` before
       you use `Quu` in any equation
     mu-in-K-only: your code omits `mu` in k. Add `mu` to the diagonal of `Quu` before
