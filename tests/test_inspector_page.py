@@ -697,7 +697,7 @@ class TestTwoBrowsers:
         work.write_text(of_day_1("Rz_swapped"), "utf-8")
         page.until(lambda: "✗ YOUR compose_fk is off by 744 mm" in page.said("yours"))
         assert "first frame that differs: link1" in page.said("yours")
-        page.until(lambda: "the sine and the cosine" in page.said("standing"))
+        page.until(lambda: "sine and the cosine" in page.said("standing"))
         marked = "[data-matrix=yours] .off"
         for each in (page, dark):
             each.until(lambda each=each: each.tab.locator(marked).count() >= 10)

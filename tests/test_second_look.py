@@ -79,8 +79,8 @@ def test_a_wrong_term_is_told_by_when_it_is_right(check):
     term = "acc = qdd_ref + pd_torque(e, ed, kp, kd)"
     outside = text.replace(term, "acc = qdd_ref + kp * e")
     outside = outside.replace(
-        "return M @ acc + bias", "return M @ acc + kd * ed + bias"
-    )
+        "return M @ acc + bias", "return M @ acc + 2 * kd * ed + bias"
+    )  # of one change a line would be told
     assert outside != text
     verdict = check(outside, day, "5.6")["5.6"]
     assert "The result is correct whenever " in verdict.message
