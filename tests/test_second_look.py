@@ -87,6 +87,18 @@ def test_a_wrong_term_is_told_by_when_it_is_right(check):
     assert "`ed` is 0" in verdict.message or "`kd` is 0" in verdict.message
 
 
+def test_the_line_that_one_change_makes_right_is_told_by_the_sandbox(check):
+    day = find_day(5)
+    text = day.source.read_text("utf-8")
+    term = "acc = qdd_ref + pd_torque(e, ed, kp, kd)"
+    outside = text.replace(term, "acc = qdd_ref + kp * e")
+    outside = outside.replace(
+        "return M @ acc + bias", "return M @ acc + kd * ed + bias"
+    )
+    says = check(outside, day, "5.6")["5.6"].message
+    assert "`return M @ acc + kd * ed + bias + damping * qd`, makes all" in says
+
+
 def test_an_error_on_some_inputs_hides_no_wrong_answer(check):
     code = REFERENCE.replace(
         "R, t = T[:3, :3], T[:3, 3]",
