@@ -84,7 +84,7 @@ def test_a_file_is_told_what_the_catalogue_says(day, some):
 def test_a_wrong_file_run_as_a_lab_fails(day, run):
     # In a process of its own: it forks, and what ran before may hold much memory.
     which = "--labs" if changed(day) else "--some-labs"
-    done = run("tests/catalogue.py", day.number, which, timeout=300)
+    done = run("tests/catalogue.py", day.number, which, timeout=900)
     assert done.returncode == 0, f"the lab passes: {done.stdout}{done.stderr[-500:]}"
 
 

@@ -134,4 +134,4 @@ def project(K, T_cam_world, points):
 def test_a_change_of_an_argument_that_the_library_refuses_is_found(student):
     """An inverted pose puts points behind the camera, which the lab's code projects."""
     says = told_of_a_file(10, "10.2", "project", student, INVERTED)
-    assert "replaces `T_cam_world` with its inverse." in says
+    assert "acts as if `T_cam_world` were replaced with its inverse." in says

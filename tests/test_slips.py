@@ -248,10 +248,7 @@ def test_an_answer_that_is_infinite_is_not_told_how_far_it_is_off():
         return bounds(np.abs(a), b, c, limits, sd)
 
     says = told(12, "12.8", path_accel_bounds=path_accel_bounds)
-    assert (
-        "replaces every entry of `a` with its absolute value. The reference solution"
-        in says
-    )
+    assert "every entry of `a` were replaced with its absolute value. The" in says
 
 
 def test_one_slip_that_explains_all_is_told_before_two():

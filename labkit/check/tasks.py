@@ -18,7 +18,7 @@ from labkit.judge.ask import Asked, asked_of, replies
 from labkit.judge.cases import in_cases
 from labkit.judge.guard import attempt, noting, quiet
 from labkit.judge.judge import judge, unjudged
-from labkit.judge.mistake import Verdict
+from labkit.judge.mistake import ADD_UP, Verdict
 from labkit.judge.repair import changes_of, repaired
 from labkit.judge.replies_read import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
@@ -186,7 +186,7 @@ class _Check:
             verdict = replace(verdict, measured=(*verdict.measured, says))
             if verdict.mistake in FRESH_ONLY:
                 verdict = replace(verdict, message=f"{verdict.message} {says}")
-        if verdict.wrong_calls and not self.deadline.over:
+        if (verdict.wrong_calls or verdict.by_output) and not self.deadline.over:
             verdict = self._with_experiments(task, verdict, added)
         return replace(result, verdict=verdict)
 
@@ -195,21 +195,28 @@ class _Check:
         all_asked = self.asked[task.id]
         asked = next(one for one in all_asked if one.function == verdict.function)
         judged = {name for one in self.day.tasks for name in one.functions}
-        changes = changes_of(self.source, asked.function, judged)
+        tells = verdict.mistake != "one-factor-off"  # any of its factors mends that
+        changes = changes_of(self.source, asked.function, judged) if tells else None
+        line = says = ""
         with quiet():
             below = added + (changes.code if changes else "")
             with contextlib.closing(self._session(asked, below)) as session:
-                says = changes and repaired(asked, self.source, changes, session)
+                if changes:
+                    line = repaired(asked, self.source, changes, session)
                 hung = not session.alive
-                if not says and not hung:
+                if not line and not hung:
                     says = self._where_right(asked, verdict, session)
             if hung:  # in a change
                 with contextlib.closing(self._session(asked, added)) as session:
                     says = self._where_right(asked, verdict, session)
-        return replace(verdict, message=f"{verdict.message} {says}".strip())
+        if line and ADD_UP in verdict.message:  # one change in place of two mistakes
+            return replace(verdict, mistake="one-line", message=line)
+        return replace(verdict, message=f"{verdict.message} {line or says}".strip())
 
     def _where_right(self, asked: Asked, verdict: Verdict, session: Session) -> str:
         """Return in which cases, or for which arguments, a function is right; or ""."""
+        if verdict.by_output:
+            return ""
         names = arguments(self.source, asked.function)
         return in_cases(asked, session.ask) or right_when(
             asked, verdict.wrong_calls, names, session.ask

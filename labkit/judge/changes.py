@@ -79,38 +79,36 @@ def _named(call: Call, names: Sequence[str]) -> Sequence[str]:
 
 
 def of_answer() -> Iterator[tuple[str, Callable[[Array], Any]]]:
-    """Yield changes of finished answers, (n, ...), each with a verb: "squares it".
+    """Yield changes of finished answers, (n, ...), each as a noun: "the square of {}".
 
     A factor and a sign are none of them: their kind tells these with what they are.
     """
-    yield "takes its absolute value", np.abs
-    yield "squares it", np.square
-    yield "takes its square root", np.sqrt
-    yield "takes its reciprocal", lambda T: 1.0 / T
-    yield "subtracts it from 1", lambda T: 1.0 - T
-    yield "sets negative values to 0", lambda T: np.maximum(T, 0.0)
-    yield "clamps it to [0, 1]", lambda T: np.clip(T, 0.0, 1.0)
-    yield "clamps it to [-1, 1]", lambda T: np.clip(T, -1.0, 1.0)
+    yield "the absolute value of {}", np.abs
+    yield "the square of {}", np.square
+    yield "the square root of {}", np.sqrt
+    yield "the reciprocal of {}", lambda T: 1.0 / T
+    yield "1 minus {}", lambda T: 1.0 - T
+    yield "{} with 0 in place of negative values", lambda T: np.maximum(T, 0.0)
+    yield "{} clamped to [0, 1]", lambda T: np.clip(T, 0.0, 1.0)
+    yield "{} clamped to [-1, 1]", lambda T: np.clip(T, -1.0, 1.0)
     for decimals in range(4):
-        yield (
-            f"rounds it to {decimals} decimals",
-            partial(np.round, decimals=decimals),
-        )
-    yield "rounds it down", np.floor
-    yield "rounds it up", np.ceil
-    yield "normalises it", _normalised
-    yield "reverses its order", partial(np.flip, axis=1)
-    yield "shifts it by one entry", partial(np.roll, shift=1, axis=1)
-    yield "shifts it by one entry", partial(np.roll, shift=-1, axis=1)
-    yield "swaps its halves", partial(_rolled, axis=1)
-    yield "swaps its halves", partial(_rolled, axis=-1)
-    yield "transposes it", np.matrix_transpose
-    yield "keeps only its diagonal", lambda T: T * np.eye(T.shape[-1])
-    yield "keeps only its upper triangle", np.triu
-    yield "keeps only its lower triangle", np.tril
-    yield "inverts it", np.linalg.inv
-    yield "takes its cumulative sum", partial(np.cumsum, axis=1)
-    yield "swaps its columns", partial(np.flip, axis=-1)
+        rounded = partial(np.round, decimals=decimals)
+        yield f"{{}} rounded to {count(decimals, 'decimal')}", rounded
+    yield "{} rounded down", np.floor
+    yield "{} rounded up", np.ceil
+    yield "{} divided by its norm", _normalised
+    yield "{} in reverse order", partial(np.flip, axis=1)
+    yield "{} shifted by one entry", partial(np.roll, shift=1, axis=1)
+    yield "{} shifted by one entry", partial(np.roll, shift=-1, axis=1)
+    yield "{} with its halves swapped", partial(_rolled, axis=1)
+    yield "{} with its halves swapped", partial(_rolled, axis=-1)
+    yield "the transpose of {}", np.matrix_transpose
+    yield "the diagonal of {} alone", lambda T: T * np.eye(T.shape[-1])
+    yield "the upper triangle of {} alone", np.triu
+    yield "the lower triangle of {} alone", np.tril
+    yield "the inverse of {}", np.linalg.inv
+    yield "the cumulative sum of {}", partial(np.cumsum, axis=1)
+    yield "{} with its columns in reverse order", partial(np.flip, axis=-1)
 
 
 def simple(answer: Array) -> Iterator[Callable[[Array], Array]]:
@@ -131,8 +129,8 @@ Made = Iterator[tuple[str, str, Callable[[Any], Any]]]
 
 def _made(k: int, name: str, some: Made) -> Iterator[Change]:
     for slug, says, change in some:
-        does = says if says.startswith("replaces ") else f"acts as if {says}"
-        yield Change(slug, does.format(name), partial(_at, k, change))
+        does = f"acts as if {says}".format(name)
+        yield Change(slug, does, partial(_at, k, change))
 
 
 def _near(x: Any) -> Made:
@@ -146,7 +144,7 @@ def _near(x: Any) -> Made:
     if len(shape) > 1 and shape[-1] == shape[-2]:
         yield "transposed", "`{0}` were transposed", np.matrix_transpose
         if shape[-1] == 4 and rigid(x.reshape(-1, 4, 4)):
-            yield "inverted", "replaces `{0}` with its inverse", rigid_inverse
+            yield "inverted", "`{0}` were replaced with its inverse", rigid_inverse
     if shape == (6,):
         yield "halves-exchanged", "the halves of `{0}` were swapped", _rolled
     if shape and shape[0] >= SHARED:
@@ -170,12 +168,12 @@ def _far(x: Any) -> Made:
         return
     each = "every entry of `{0}`" if _shape(x) else "`{0}`"
     yield "ones", f"{each} were 1", np.ones_like
-    yield "sign-lost", f"replaces {each} with its absolute value", np.abs
+    yield "sign-lost", f"{each} were replaced with its absolute value", np.abs
     yield "degrees", "`{0}` had been converted to degrees", np.rad2deg
     yield "radians", "`{0}` had been converted from degrees to radians", np.deg2rad
-    yield "squared", f"replaces {each} with its square", np.square
-    yield "root", f"replaces {each} with its square root", np.sqrt
-    yield "reciprocal", f"replaces {each} with its reciprocal", lambda x: 1.0 / x
+    yield "squared", f"{each} were replaced with its square", np.square
+    yield "root", f"{each} were replaced with its square root", np.sqrt
+    yield "reciprocal", f"{each} were replaced with its reciprocal", lambda x: 1.0 / x
     yield "thousandths", "`{0}` were 1000 times as large", partial(np.multiply, 1000.0)
     yield "thousands", "`{0}` were divided by 1000", partial(np.multiply, 1e-3)
     yield (
@@ -224,14 +222,14 @@ def _far_of_array(x: Array) -> Made:
     shape = _shape(x)
     yield "normalised", "`{0}` were divided by its norm", _unit
     entry, entries = _ENTRIES.get(len(shape), ("element", "elements"))
-    every = f"replaces every {entry} of `{{0}}` with"
+    every = f"every {entry} of `{{0}}` were"
     yield "first-for-all", f"{every} the first {entry}", _first
     yield "last-for-all", f"{every} the last {entry}", _last
-    yield "mean", f"{every} their mean", _mean
+    yield "mean", f"{every} the mean of all {entries}", _mean
     yield "sorted", "`{0}` were sorted", partial(np.sort, axis=0)
     yield (
         "summed-up",
-        "replaces `{0}` with its cumulative sum",
+        "`{0}` were replaced with its cumulative sum",
         partial(np.cumsum, axis=0),
     )
     if shape[0] > 1:
@@ -265,7 +263,7 @@ def _far_of_array(x: Array) -> Made:
             lambda x: x * np.eye(len(x)),
         )
         yield "identity", "`{0}` were the identity matrix", lambda x: np.eye(len(x))
-        yield "inverted", "replaces `{0}` with its inverse", np.linalg.inv
+        yield "inverted", "`{0}` were replaced with its inverse", np.linalg.inv
         yield "upper", "every entry of `{0}` below the diagonal were 0", np.triu
         yield "lower", "every entry of `{0}` above the diagonal were 0", np.tril
     if len(shape) > 1:

@@ -177,7 +177,7 @@ def _judge_values(asked: Asked, S: Parts, names: Sequence[str]) -> Verdict:
         named: Finding | None = attempt(_explained, m)
         located: Finding | None = None if named else attempt(_located, m)
         if told_all := named or (None if ask.cases else located):
-            return Verdict("wrong", *told_all, measured)
+            return Verdict("wrong", *told_all, measured, by_output=told_all.by_output)
         wrong = tuple(np.flatnonzero(gap > ask.near).tolist())
         plainly = _by_how_much(gap, ask.tolerance)
         found: Finding = located or attempt(

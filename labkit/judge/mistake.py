@@ -14,6 +14,9 @@ from robo47.checks import Array
 
 REDONE = "the reference solution with this mistake"
 BOTH = "the reference solution with both mistakes"
+AS_A_SOLUTION = "Your code gives the same result as a solution"
+TOGETHER = "Two mistakes together explain your result."
+ADD_UP = "The errors of both mistakes add up to the error of your code"
 YOUR_CODE = "your code "
 _BOTH = re.compile(r" => both$")
 
@@ -23,6 +26,11 @@ class Finding(NamedTuple):
 
     slug: str
     message: str
+
+    @property
+    def by_output(self) -> bool:
+        """Whether only the output shows it, as in a `Verdict`."""
+        return AS_A_SOLUTION in self.message or ADD_UP in self.message
 
 
 @dataclass(frozen=True)
@@ -42,6 +50,9 @@ class Verdict:
     # nor anything else says more than by how much.
     wrong_calls: tuple[int, ...] = ()
     function: str = ""  # that was judged
+    # Whether a change of a right solution, or two mistakes, give the output of a
+    # function that may have neither: a line of its own text would say more.
+    by_output: bool = False
     # Whether the answers have the property that is asked for, by another method.
     valid: bool = False
     call: str = ""  # the call that failed, in a line, with theirs and the right answer
@@ -99,7 +110,7 @@ def both_told(first: str, second: str) -> str:
     if first.startswith(YOUR_CODE) and ". " not in first:
         second = re.sub(f"^{YOUR_CODE}(?!for )", "it ", second)
     says = as_sentence(f"First, {first}"), as_sentence(f"Second, {second}")
-    return f"Two mistakes together explain your result. {' '.join(says)}"
+    return f"{TOGETHER} {' '.join(says)}"
 
 
 def as_sentence(says: str) -> str:

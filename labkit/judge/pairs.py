@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import combinations, islice
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from labkit.judge.answers import (
 from labkit.judge.effort import LINES, Effort
 from labkit.judge.hypothesis import EXACT, evidence
 from labkit.judge.matcher import Code, Matcher, row
-from labkit.judge.mistake import BOTH, Finding, Mistake, both_told
+from labkit.judge.mistake import ADD_UP, BOTH, Finding, Mistake, both_told
 from labkit.judge.mutant import Mutant
 from labkit.judge.sentence import half
 from labkit.judge.sources import SCREEN, after, answered_near
@@ -45,7 +45,17 @@ IN_TURN, BESIDE = 0.3, 0.1  # shares of one for pairs made in turn, or that add 
 NAMED = 1.5  # a named mistake comes after two signs, and before the other mutants
 # Mutants that may be one of two: by factors and numbers a sum is made in many ways.
 ALONG = {"sign", "negated", "left-out", "name", "order", "transpose", "index", "line"}
+MADE = f"{BOTH} {evidence(True)}"
+MULTIPLY = "The factors of both mistakes together give the output of your code"
 Together = Any  # from the answers of two hypotheses and the right ones to both at once
+
+
+class _Two(NamedTuple):
+    """Two mistakes that together give all answers, and how they do."""
+
+    first: Mistake
+    second: Mistake
+    how: str = MADE
 
 
 def of_its_own_first(m: Matcher) -> list[Mistake]:
@@ -63,18 +73,20 @@ def two_at_once(m: Matcher) -> Finding | None:
         pairs = _Pairs(m, i, effort)
         some = (pairs.of_its_kind, pairs.added, pairs.finished, pairs.in_turn)
         if found := next(filter(None, (one() for one in some)), None):
-            says = [_BUT.sub("", one.says) for one in found]
-            return _told(m, [one.slug for one in found], says)
+            *two, how = found
+            says = [_BUT.sub("", one.says) for one in two]
+            return _told(m, [one.slug for one in two], says, how)
     return None
 
 
-def _told(m: Matcher, slugs: Sequence[str], says: Sequence[str]) -> Finding | None:
+def _told(
+    m: Matcher, slugs: Sequence[str], says: Sequence[str], how: str
+) -> Finding | None:
     """Return what is said of a pair; None where both halves say the same."""
     says = [_RULE.split(one)[0] for one in says]  # a rule would break the list
     if len(set(says)) < len(says):
         return None
-    how = m.with_error(f"{BOTH} {evidence(True)}")
-    return Finding("+".join(slugs), f"{both_told(*says)} {how}")
+    return Finding("+".join(slugs), f"{both_told(*says)} {m.with_error(how)}")
 
 
 @dataclass(frozen=True)
@@ -104,7 +116,7 @@ class _Pairs:
     def _right(self) -> Parts:
         return tuple(t[self.i] for t in self.m.T)
 
-    def added(self) -> Sequence[Mistake] | None:
+    def added(self) -> _Two | None:
         """Return two mistakes whose differences, or factors, come together."""
         for a, b, both in self._near_together():
             pair = self.mistakes[a], self.mistakes[b]
@@ -116,7 +128,7 @@ class _Pairs:
             one, other = (self.m.main.answers(x.redo) for x in pair)
             factor = both is _product and _one_factor(one, other, self.m.T)
             if not factor and _add_up(self.m, pair[0].redo, pair[1].redo, both):
-                return pair
+                return _Two(*pair, MULTIPLY if both is _product else ADD_UP)
         return None
 
     def _near_together(self) -> Iterator[tuple[int, int, Together]]:
@@ -144,7 +156,7 @@ class _Pairs:
         off = np.abs(answer[0] - its)
         return bool(off[:3, :3].max() > MATCHES and off[:3, 3].max() > MATCHES)
 
-    def of_its_kind(self) -> Sequence[Mistake] | None:
+    def of_its_kind(self) -> _Two | None:
         """Return two mistakes that any function of this kind can have."""
         if len(self.m.T) != 1:
             return None
@@ -154,7 +166,7 @@ class _Pairs:
                 for calls in filter(None, (self.m.main, self.m.fresh))
             ]
             if self._all_fit(made):
-                return first, change
+                return _Two(first, change)
         return None
 
     def _all_fit(self, made: Sequence[Parts]) -> bool:
@@ -169,7 +181,7 @@ class _Pairs:
             for some, one in zip(made, calls, strict=True)
         )
 
-    def finished(self) -> Sequence[Mistake] | None:
+    def finished(self) -> _Two | None:
         """Return a mistake and another that is made with its finished answer."""
         if len(self.m.T) != 1:
             return None
@@ -181,17 +193,17 @@ class _Pairs:
                     continue
                 redo = partial(_finished, change, self.mistakes[k].redo)
                 if self.m.holds(redo):
-                    return self.mistakes[k], change
+                    return _Two(self.mistakes[k], change)
         return None
 
-    def in_turn(self) -> Sequence[Mistake] | None:
+    def in_turn(self) -> _Two | None:
         """Return a mistake made with arguments and one after it, or two options."""
         for first, second, code in self._that_combine():
             if self.effort.spent():
                 break
             self.effort.spend(self.m.usual)
             if self.m.holds(code):
-                return first, second
+                return _Two(first, second)
         return None
 
     def _that_combine(self) -> Iterator[tuple[Mistake, Mistake, Code]]:
@@ -467,7 +479,7 @@ def beside(m: Matcher) -> Finding | None:
             break
         effort.spend(2 * m.usual)
         if one.code and other.code and _add_up(m, one.code, other.code):
-            return _told(m, [one.slug, other.slug], [one.says, other.says])
+            return _told(m, [one.slug, other.slug], [one.says, other.says], ADD_UP)
     return None
 
 
@@ -496,7 +508,7 @@ def second(m: Matcher) -> Finding | None:
             if m.main.difference.fits(m.i, answer, digits=True) and m.holds(code):
                 says = [half(m, first), half(m, other)]
                 slugs = [f"slip-{one.kind}" for one in (first, other)]
-                if all(says) and (found := _told(m, slugs, says)):
+                if all(says) and (found := _told(m, slugs, says, MADE)):
                     return found
     return None
 

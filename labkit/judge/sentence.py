@@ -15,7 +15,7 @@ from typing import Any
 from labkit.judge.answers import SYMBOLS, capitalised, listed
 from labkit.judge.form import is_like, is_of_its_form
 from labkit.judge.hypothesis import evidence
-from labkit.judge.mistake import REDONE, Finding
+from labkit.judge.mistake import AS_A_SOLUTION, REDONE, Finding
 from labkit.judge.mutant import Mutant
 from labkit.judge.operators import called
 from labkit.judge.own_line import Line, OwnFunction
@@ -26,7 +26,6 @@ from labkit.lesson.starter import function_lines
 MODULES = ("np", "se3", "screws", "math")
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
 ONCE = " in one place"  # of a change whose place is not quoted
-AS_A_SOLUTION = "Your code gives the same result as a solution"
 EVERYWHERE = ", in every similar line"  # of a change that is made in several places
 
 # What "your code" does, where the place of a change says no more.
@@ -192,6 +191,15 @@ def tells(mutant: Mutant) -> bool:
     return mutant.kind in TELLING and what(mutant) != SAYS["left-out"]
 
 
+def tells_of(m: Any, mutant: Mutant) -> bool:
+    """Return whether a mutant's kind says enough of the student's own function.
+
+    In another form a factor of two may stand for any term.
+    """
+    own = mutant.kind == "factor" and _own_function(m, mutant)
+    return tells(mutant) and not (own and not is_like(own.own, own.reference))
+
+
 def half(m: Any, mutant: Mutant) -> str:
     """Return what is said of one mutant of two; "" where it says too little."""
     return told(m, mutant) if shows(m, mutant) else ""
@@ -215,7 +223,8 @@ def told(m: Any, mutant: Mutant) -> str:
 def for_steps(glosses: Sequence[str]) -> str:
     """Return steps as they stand between "your code" and its verb."""
     where = " and ".join(f"for {of_a_step(gloss)}" for gloss in glosses)
-    return where + "," * ("," in INDEX.sub("", where))
+    clause = "," in INDEX.sub("", where) and not LISTED.search(where)
+    return where + "," * clause
 
 
 def _arguments(m: Any, mutant: Mutant) -> dict[str, str]:
@@ -228,6 +237,7 @@ DETERMINERS = {
     "the", "a", "an", "its", "those", "each", "every", "both", "all", "no", "half",
     "twice", "one", "two", "four", "at",
 }  # fmt: skip
+LISTED = re.compile(r"(?:, \S+ and \S+|(?:, \S+){2,})$")  # "of s^2, s and 1"
 INDEX = re.compile(r"\[[^]]*\]")  # its comma ends no clause: "entry [a, b]"
 NUMBERED = re.compile(r"\w+ (\d+|[b-z])\b")  # "row 1" and "row i"
 ADVERBS = {"from", "without", "at", "up", "after", "inward", "outward", "true"}

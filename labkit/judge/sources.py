@@ -36,7 +36,7 @@ from labkit.judge.sentence import (
     of_mutants,
     own_line,
     shows,
-    tells,
+    tells_of,
 )
 
 NEAR, FURTHER = "near", "further"  # mutants
@@ -158,10 +158,9 @@ def of_answers(m: Matcher) -> Finding | None:
 
 def _changed_answer(m: Matcher, i: int | None, says: str) -> Finding:
     called = m.ask.kinds[i].called if i is not None and len(m.T) > 1 else ""
-    what = f"{called} correctly" if called else "the correct result"
     how = m.with_error(f"{REDONE} {evidence(True)}")
-    says = f"Your code computes {what} and then {says}. {how}"
-    return Finding("answer-changed", says)
+    says = f"Your code returns {says.format('the correct result')}. {how}"
+    return Finding("answer-changed", of_result(says, called))
 
 
 def _with_result(i: int | None, change: Code, T: Parts) -> Parts:
@@ -265,7 +264,7 @@ def other_mutants(m: Matcher) -> Finding | None:
     """
     for which in (NEAR, FURTHER):
         some = _that_hold(m, which)
-        if found := [one for one in some if shows(m, one) or tells(one)]:
+        if found := [one for one in some if shows(m, one) or tells_of(m, one)]:
             return of_mutants(m, found)
     return None
 
@@ -284,7 +283,7 @@ def _that_hold(m: Matcher, which: str) -> list[Mutant]:
         return found
     screened = (one for one, answer in answered(m, which) if _fits(m, answer))
     for one in islice(screened, SEVERAL):
-        told = m.whole or shows(m, one) or tells(one)
+        told = m.whole or shows(m, one) or tells_of(m, one)
         apart = not any(one.overlaps(other) for other in found)
         code = one.code
         may_be = has_its_kind(m, one) and is_in_its_form(m, one)

@@ -103,6 +103,9 @@ def _(axis, theta):
     dyad-missing: your code omits the term (1 - cos(theta)) axis axis^T. This term is
       needed because a rotation does not change vectors along the axis
     always-about-z: your code rotates about z for every axis. Use the given axis instead
+    parallel-part-shortened: your matrix multiplies the component along the axis by
+      cos(theta). Multiply the component perpendicular to the axis instead, because a
+      rotation does not change vectors along the axis
     """
     K = skew(axis)
     dyad = np.outer(axis, axis)
@@ -113,6 +116,7 @@ def _(axis, theta):
         "dyad-without-factor": c * I + s * K + dyad,
         "dyad-missing": c * I + s * K,
         "always-about-z": lambda: se3.Rz(theta),
+        "parallel-part-shortened": I + s * K + (c - 1) * dyad,
     }
 
 

@@ -105,6 +105,18 @@ def not_summed_back(J, G, armature):
     return M
 
 
+@row.wrong
+def summed_from_the_base(J, G, armature):
+    """your code sums over the links from the base up to the later of the two joints.
+    Sum over the links from the later joint to the end instead, because both joints move
+    these links"""
+    M = np.diag(armature)
+    for i in range(7):
+        for j in range(7):
+            M[i, j] += J[:, i] @ G[: max(i, j) + 1].sum(axis=0) @ J[:, j]
+    return M
+
+
 @row.right  # Lists and loops, no matrix product.
 def _(J, G, armature):
     M = [[armature[i] * (i == j) for j in range(7)] for i in range(7)]

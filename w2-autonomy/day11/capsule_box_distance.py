@@ -160,8 +160,9 @@ def _(a0, a1, r, T_world_box, half_extents):
       the world frame. Apply the inverse of `T_world_box` instead
     place-forgotten: your code rotates the endpoints but does not translate them.
       Subtract the position of the box before the rotation
-    turned-then-moved: your code computes `R^T x - t` for a point x. Use `R^T (x - t)`
-      instead, because the position t of the box is expressed in the world frame
+    turned-then-moved: your code computes `R^T x - t` for points x of the axis. Use
+      `R^T (x - t)` instead, because the position t of the box is expressed in the world
+      frame
     t-added: your code adds the position of the box to the endpoints. Subtract the
       position instead, as in `R^T (x - t)`
     radius-forgotten: your code omits the radius, so the result is the distance from the
