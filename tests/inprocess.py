@@ -78,6 +78,8 @@ class InProcess:
         signal.setitimer(signal.ITIMER_REAL, seconds)
         try:
             return self._ask(self.module, question, [])
+        except TimeoutError as error:  # of an answer that is as large as it is late
+            return _describe(error, self.script)
         finally:
             signal.setitimer(signal.ITIMER_REAL, 0.0)
             signal.signal(signal.SIGALRM, before)

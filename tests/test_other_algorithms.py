@@ -181,3 +181,19 @@ def test_how_an_answer_grows_is_said_of_the_size_that_was_asked():
         return float(np.prod(s) ** (1 / len(s)))
 
     assert "If `J` (6x7) is doubled" in told(3, "3.8", manipulability=manipulability)
+
+
+def test_a_factor_in_another_form_may_stand_for_any_term():
+    """Of w^2 - x^2 ... on the diagonal w^2 is missing, and no factor of two."""
+
+    def quat_to_R(quat):
+        w, x, y, z = quat / np.linalg.norm(quat)
+        R = np.empty((3, 3))
+        R[0] = [x * x - y * y - z * z, 2 * x * y - 2 * w * z, 2 * x * z + 2 * w * y]
+        R[1] = [2 * x * y + 2 * w * z, y * y - x * x - z * z, 2 * y * z - 2 * w * x]
+        R[2] = [2 * x * z - 2 * w * y, 2 * y * z + 2 * w * x, z * z - x * x - y * y]
+        return R
+
+    says = told(1, "1.4", quat_to_R=quat_to_R)
+    assert "factor of two" not in says
+    assert "not orthonormal" in says

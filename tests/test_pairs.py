@@ -13,9 +13,10 @@ from test_claims import right, told
 from labkit.judge import Count, Mask, Pose, Scalar, Vector, changes, pairs
 from labkit.judge.answers import as_clause, say_number
 from labkit.judge.matcher import Matcher
-from labkit.judge.mistake import Mistake
+from labkit.judge.mistake import ADD_UP, Mistake
 from labkit.lesson.day import find_day
 from labkit.lesson.starter import function_lines
+from robo47.screws import ad
 
 pytestmark = pytest.mark.kit
 
@@ -356,3 +357,31 @@ def test_a_message_of_one_of_several_functions_goes_on_in_its_sentence():
 def test_two_mistakes_leave_no_part_correct():
     said = "your rotation is correct, but your translation is -t"
     assert pairs._BUT.sub("", said) == "your translation is -t"
+
+
+def test_a_changed_answer_is_told_as_what_the_code_returns():
+    def quintic_coefficients(start, end, duration):
+        return right(7, "quintic_coefficients")(start, end, duration)[::-1]
+
+    says = told(7, "7.5", quintic_coefficients=quintic_coefficients)
+    assert "Your code returns the correct result in reverse order. " in says
+
+
+def test_errors_that_add_up_are_called_so():
+    def impedance_torque(J_site, wrench, bias, damping, qd, tau_null):
+        return bias - damping * qd + tau_null - J_site.T @ wrench
+
+    says = told(6, "6.7", impedance_torque=impedance_torque)
+    assert "Two mistakes together explain your result. " in says
+    assert says.endswith(f"{ADD_UP}.")
+
+
+def test_factors_that_belong_together_are_called_so():
+    def kinetic_energy_gradient(J_space, G, qd):
+        V = np.cumsum(J_space * qd, axis=1).T
+        own = [-(ad(J_space[:, i]) @ V[i]) @ G[i] @ V[i] for i in range(len(qd))]
+        return 0.5 * np.array(own)
+
+    says = told(9, "9.8", kinetic_energy_gradient=kinetic_energy_gradient)
+    assert "Two mistakes together explain your result. " in says
+    assert says.endswith(f"{pairs.MULTIPLY}.")

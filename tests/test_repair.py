@@ -174,3 +174,71 @@ def test_targets_and_lines_that_leave_a_loop_stay_as_they_are():
     exec(LOOPS + changes.code, space)
     a = np.array([1.0, 2.0, 3.0])
     assert space[f"{repair.CALLED}0"](a) == space["asked"](a)
+
+
+# The trace of the step's matrix alone; the determinant is forgotten.
+BY_THE_TRACE = """
+def max_stable_omega(h):
+    low, high = 0.0, 10.0 / h
+    for _ in range(200):
+        w = (low + high) / 2
+        trace = 1 - 2 * w * h + 1 - (w * h) ** 2
+        low, high = (w, high) if abs(trace) < 2 else (low, w)
+    return low
+"""
+MEAN = """
+def pose_covariance(J, sigma):
+    information = np.einsum("nij,nik->jk", J, J)
+    information = information / {by}
+    return sigma * np.linalg.inv(information)
+"""
+
+
+def test_a_constant_that_makes_up_for_one_factor_is_no_mistake(tmp_path):
+    says = says_of(tmp_path, 5, "5.9", "max_stable_omega", BY_THE_TRACE).message
+    assert "times the correct value in every call" in says
+    assert "One change" not in says
+
+
+def test_a_variable_that_makes_up_for_another_factor_is_no_mistake(tmp_path):
+    """The mean over n, where the sum divided by sigma would give the right answer."""
+    wrong = MEAN.format(by="len(J)")
+    says = says_of(tmp_path, 10, "10.7", "pose_covariance", wrong).message
+    assert "One change" not in says
+
+
+# Column by column, from the momentum of the centre of mass.
+BY_COLUMNS = """
+def spatial_inertia(m, c, inertia):
+    G = np.zeros((6, 6))
+    for k, V in enumerate(np.eye(6)):
+        p = m * (V[3:] + np.cross(V[:3], c))
+        G[3:, k] = p
+        G[:3, k] = inertia @ V[:3] + np.cross(p, c)
+    return G
+"""
+
+
+def test_one_change_is_told_in_place_of_two_mistakes_that_add_up(tmp_path):
+    verdict = says_of(tmp_path, 4, "4.1", "spatial_inertia", BY_COLUMNS)
+    assert verdict.message.startswith("One change in line ")
+    assert "`G[:3, k] = inertia @ V[:3] + np.cross(p, c)`, makes all" in verdict.message
+    assert verdict.mistake == "one-line"
+
+
+# Moment and force of every link, in the right order, with a sign that is wrong.
+TURNED = """
+def body_jacobian(J_space, T):
+    R, p = T[:3, :3], T[:3, 3]
+    J = np.empty((6, J_space.shape[1]))
+    for i, column in enumerate(J_space.T):
+        w, v = np.split(column, 2)
+        J[:, i] = np.append(R.T @ w, R.T @ (v + np.cross(p, w)))
+    return J
+"""
+
+
+def test_a_line_stands_beside_a_mistake_without_a_place(tmp_path):
+    says = says_of(tmp_path, 3, "3.9", "body_jacobian", TURNED).message
+    assert says.startswith("Your code for the velocity of the hand's origin reverses ")
+    assert "One change in line " in says

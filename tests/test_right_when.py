@@ -263,3 +263,23 @@ def test_a_condition_on_an_entry_does_not_hold_of_a_vector_without_it():
     known = [*calls, short]
     tried = Experiments(calls[-6:], ["x"], *both, 1e-5, known, [False] * 9)
     assert tried.neutral() == "The result is correct whenever `x[2]` is not negative."
+
+
+def test_a_function_that_is_right_with_one_entry_is_told_so():
+    rng = np.random.default_rng(4)
+    calls = [(rng.normal(size=n), rng.normal(size=(n, 2))) for n in (1, 2, 3) * 20]
+    several = [call for call in calls if len(call[0]) > 1]
+
+    def answers_of(function):
+        return lambda some: [function(*call) for call in some]
+
+    seen = Experiments(
+        several[-6:],
+        ["z", "H"],
+        answers_of(lambda z, H: z[0] * H[0]),
+        answers_of(lambda z, H: z @ H),
+        1e-5,
+        known=calls,
+        right=[len(z) == 1 for z, _ in calls],
+    )
+    assert seen.neutral() == "The result is correct whenever `z` has one entry."

@@ -202,7 +202,8 @@ class _Check:
             below = added + (changes.code if changes else "")
             with contextlib.closing(self._session(asked, below)) as session:
                 if changes:
-                    line = repaired(asked, self.source, changes, session)
+                    given = asked, self.source, changes, session
+                    line = repaired(*given, named=verdict.by_output)
                 hung = not session.alive
                 if not line and not hung:
                     says = self._where_right(asked, verdict, session)

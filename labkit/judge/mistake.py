@@ -15,6 +15,7 @@ from robo47.checks import Array
 REDONE = "the reference solution with this mistake"
 BOTH = "the reference solution with both mistakes"
 AS_A_SOLUTION = "Your code gives the same result as a solution"
+THE_PLACE = r"The wrong (line|expressions?) (is|are) |[Ii]n (line \d|`)"
 TOGETHER = "Two mistakes together explain your result."
 ADD_UP = "The errors of both mistakes add up to the error of your code"
 YOUR_CODE = "your code "
@@ -30,7 +31,9 @@ class Finding(NamedTuple):
     @property
     def by_output(self) -> bool:
         """Whether only the output shows it, as in a `Verdict`."""
-        return AS_A_SOLUTION in self.message or ADD_UP in self.message
+        says = self.message
+        nowhere = self.slug.startswith("slip-") and not re.search(THE_PLACE, says)
+        return nowhere or AS_A_SOLUTION in says or ADD_UP in says
 
 
 @dataclass(frozen=True)

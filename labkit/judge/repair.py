@@ -13,8 +13,10 @@ from dataclasses import replace
 from itertools import chain, islice
 from typing import NamedTuple, Protocol
 
+import numpy as np
+
 from labkit.base.exchange import Exchange, Question, Reply
-from labkit.judge.answers import Parts
+from labkit.judge.answers import MATCHES, Parts
 from labkit.judge.ask import Ask, Asked, right_answers
 from labkit.judge.cases import NONE, RIGHT, drawn, verdict
 from labkit.judge.mistake import Finding
@@ -35,6 +37,10 @@ FRESH = 60  # calls at which one is confirmed
 LEAST = 3  # wrong answers that have to become right
 STEPS = 2_000  # of a loop that a change may make endless
 AT, CALLED = "_robo47_at", "_robo47_changed_"
+# What makes up for a factor that is missing elsewhere: in `a / n`, another divisor.
+TUNED = {"number", "name"}
+# What may stand anywhere in a sum or a product: such a line is not the wrong one.
+ANYWHERE = {"added", "scaled"}
 LINES = 2  # that are named; of more than these it says little
 # What is changed, by the kind of a change.
 PARTS = {
@@ -251,7 +257,9 @@ class Asker(Protocol):
         """Return for how many seconds it had a processor, and waited for one."""
 
 
-def repaired(asked: Asked, source: str, changes: Changes, asker: Asker) -> str:
+def repaired(
+    asked: Asked, source: str, changes: Changes, asker: Asker, named: bool = False
+) -> str:
     """Return which line of a wrong function, changed once, makes it right; or "".
 
     Args:
@@ -259,6 +267,7 @@ def repaired(asked: Asked, source: str, changes: Changes, asker: Asker) -> str:
         source: the student's file.
         changes: of the function.
         asker: has the file with the code of the changes.
+        named: whether the mistake has a name, and only its place is not known.
     """
     known = [*asked.main, *asked.fresh]
     wrong = [one for one in known if verdict(asked.ask, one) not in (RIGHT, NONE)]
@@ -274,7 +283,10 @@ def repaired(asked: Asked, source: str, changes: Changes, asker: Asker) -> str:
     fresh = islice(drawn(asked.ask, [one.args for one in calls]), FRESH)
     more = [replace(calls[0], args=call) for call in fresh]
     holding = trial.that_hold(holding, more)
-    mutants = [changes.mutants[k - 1] for k in holding]
+    but = ANYWHERE if named else set()
+    if all(_is_a_multiple(asked.ask, one) for one in wrong[:FEW]):
+        but = but | TUNED
+    mutants = [one for k in holding if (one := changes.mutants[k - 1]).kind not in but]
     return _told(mutants, source, len(calls) + len(more))
 
 
@@ -328,6 +340,22 @@ def _gives(row: Ask, question: Question, reply: Reply, right: Parts) -> bool:
         return False
     same = all(s.shape == t.shape for s, t in zip(S, right, strict=True))
     return same and float(row.gaps(S, right).max()) <= row.tolerance
+
+
+def _is_a_multiple(row: Ask, wrong: Exchange) -> bool:
+    """Return whether a wrong answer of several numbers is the right one times one."""
+    S, right = read([wrong], row), right_answers(row, [wrong])
+    if isinstance(S, Finding):
+        return False
+    mine, its = (np.concatenate([np.ravel(x) for x in some]) for some in (S, right))
+    if (
+        mine.shape != its.shape
+        or np.count_nonzero(its) < 2
+        or not np.isfinite(mine).all()
+    ):
+        return False
+    factor = (mine @ its) / (its @ its)
+    return bool(np.abs(mine - factor * its).max() <= MATCHES * np.abs(mine).max())
 
 
 def _is_right(row: Ask, question: Question, reply: Reply) -> bool:

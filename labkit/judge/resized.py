@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 EACH = 2  # calls of a case that are given each other size
 SIZES = 3  # other sizes of an axis, at most: small ones, and the largest
@@ -58,6 +59,24 @@ def size_of(call: Call, axes: Sequence[Axis]) -> int:
     return int(call[argument].shape[axis])
 
 
+def one_of_them(call: Call, axes: Sequence[Axis]) -> tuple[int, str]:
+    """Return an argument that has some axes, one of numbers first, and a part of it."""
+    k, axis = min(axes, key=lambda one: (np.ndim(call[one[0]]), one[1]))
+    flat = np.ndim(call[k]) == 1
+    return k, "entry" if flat else ("row", "column")[axis] if axis < 2 else "element"
+
+
+def has_one(axes: Sequence[Axis], call: Call) -> bool:
+    """Return whether some axes of a call have the size 1."""
+    return size_of(call, axes) == 1
+
+
+def with_one(axes: Sequence[Axis], call: Call) -> list[Call]:
+    """Return calls with one entry of a call along its axes: the first, and the last."""
+    n = size_of(call, axes)
+    return [_taken(call, axes, np.array([at])) for at in {0, n - 1} if n > 0]
+
+
 def _axes(call: Call) -> dict[Axis, int]:
     """Return the size of each axis of a call's arrays."""
     return {
@@ -76,7 +95,12 @@ def with_size(
     whole, rest = divmod(size, max(1, call[i].shape[axis]))
     some = rng.permutation(call[i].shape[axis])[:rest]
     at = np.sort(np.append(np.tile(np.arange(call[i].shape[axis]), whole), some))
+    return _taken(call, axes, at.astype(int))
+
+
+def _taken(call: Call, axes: Sequence[Axis], at: NDArray[np.intp]) -> Call:
+    """Return a call with the entries at some places along its axes."""
     changed = list(call)
     for i, axis in axes:
-        changed[i] = np.take(changed[i], at.astype(int), axis=axis)
+        changed[i] = np.take(changed[i], at, axis=axis)
     return tuple(changed)

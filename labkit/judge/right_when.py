@@ -23,6 +23,7 @@ from labkit.judge.crossed import crossed
 from labkit.judge.neutral import SIZES, Neutral, neutrals, scaled
 from labkit.judge.ranges import Span, spans
 from labkit.judge.replies_read import flat
+from labkit.judge.resized import has_one, one_of_them, sizes_by_axis, with_one
 from robo47.checks import Array
 
 QUESTIONS = 6  # per experiment; five of them at least must agree
@@ -155,7 +156,7 @@ class Experiments:
 
     def tested(self, others: Sequence[Answers] = ()) -> list[Claim]:
         """Return what holds, the most telling first: two claims at most."""
-        claims = [*self._stated(), *self._ranges(), *self._claims()]
+        claims = [*self._stated(), *self._sizes(), *self._ranges(), *self._claims()]
         claims = [one for one in claims if not self._refuted(one)]
         first = self._each([one.calls for one in claims])
         telling = []
@@ -363,6 +364,20 @@ class Experiments:
                 calls = self._spanned(k, one, self.calls, QUESTIONS + 2)
                 holds = partial(_of_argument, k, one.holds)
                 yield Claim(k, says, calls, holds, partial(self._in_span, k, one))
+
+    def _sizes(self) -> Iterator[Claim]:
+        """Yield that an array has one entry, with which it is right, as asked."""
+        for axes in sizes_by_axis(self.known).values():
+            k, what = one_of_them(self.known[0], axes)
+            holds, made = partial(has_one, axes), partial(with_one, axes)
+            some = [one for call in self.known for one in made(call)]
+            first = [*filter(holds, self.known), *some][: QUESTIONS + 2]
+            says = f"whenever `{self.names[k]}` has one {what}"
+            yield Claim(k, says, first, holds, partial(self._made, made), 0.0, made)
+
+    def _made(self, made: Callable[[Call], Sequence[Call]]) -> list[Call]:
+        """Return what is made of calls that were asked, and of fresh ones."""
+        return [one for call in (*self.known, *self.drawn()) for one in made(call)]
 
     def _in_span(self, k: int, one: Span) -> list[Call]:
         """Return calls in a range, with the others as asked, resized, and crossed.

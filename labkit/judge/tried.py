@@ -19,7 +19,10 @@ from robo47.checks import Array
 _KEPT = re.compile(r"(\[[^\]]*\]|\b(?:joint|rows?|columns?|link) ?\d+(?: to \d+)?)")
 # Of answers that are nearly right only what tells the wrong entries, or all of them,
 # exactly: whether R is a rotation, say, follows from a rounded constant.
-_EXACT = {"few-entries-off", "one-factor-off", "shifted"}
+_EXACT = {
+    "few-entries-off", "one-factor-off", "shifted", "part-off", "translation-off",
+    "first-half-off", "second-half-off",
+}  # fmt: skip
 # Where all that is wrong stands is said of all answers, fresh ones as well.
 _OF_ALL = {"part-off", "few-entries-off"}
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
