@@ -44,9 +44,8 @@ def told(row, function, known=None):
 
 
 def test_right_and_wrong_cases_are_listed():
-    says = (
-        "The result is correct for positive numbers. It is wrong for negative numbers."
-    )
+    says = "The result is correct for positive numbers. "
+    says += "It is wrong in every test for negative numbers."
     assert told(toy(), lambda x: x) == says
     # Right too where x is above -1: not in every call of the case.
     some = told(toy(), lambda x: x / 2 if -1 < x < 0 else x)
@@ -93,7 +92,9 @@ def test_a_case_that_no_generator_draws_often_is_not_listed():
     row.cases(one=lambda x: x == -1, others=lambda x: x != -1)
     row.rare(lambda rng: [(-1.0,)])
     says = told(row, lambda x: -0.5 if x == -1 else 99.0)
-    assert says == "The result is correct for one. It is wrong for others."
+    assert (
+        says == "The result is correct for one. It is wrong in every test for others."
+    )
 
 
 def test_only_is_said_where_every_other_call_is_right():
@@ -118,8 +119,8 @@ def test_a_case_that_is_partly_wrong_is_told_after_one_that_is_wrong():
     })  # fmt: skip
     says = told(row, lambda x: x if x < 3 or x > 6 else 99.0)
     assert says == (
-        "The result is correct for numbers from 0 to 3. It is wrong for negative "
-        "numbers, and sometimes wrong for numbers above 3."
+        "The result is correct for numbers from 0 to 3. It is wrong in every test for "
+        "negative numbers, and sometimes wrong for numbers above 3."
     )
 
 
@@ -135,7 +136,7 @@ def test_adjacent_ranges_with_the_same_verdict_are_one():
     says = told(row, lambda x: x / 2 if x < 0 else 99.0)
     assert says == (
         "The result is correct for numbers below 0 m. "
-        "It is wrong for numbers above 0 m."
+        "It is wrong in every test for numbers above 0 m."
     )
 
 
@@ -182,7 +183,7 @@ def test_a_case_is_right_only_if_it_is_right_at_other_sizes():
     row.rare(
         lambda rng: [(rng.numbers(0.5, 1, n), rng.numbers(0.5, 1, n)) for n in (1, 2)]
     )
-    right = "The result is correct for one factor. It is wrong for more."
+    right = "The result is correct for one factor. It is wrong in every test for more."
     assert told(row, lambda x, y: x * y[0]) == right
     # With one factor, only one x is asked for; of several x, each is wrong.
     assert told(row, lambda x, y: x * y.sum() * len(x)) == ""
@@ -263,16 +264,16 @@ NAMES = {
 }
 OF_THE_REVIEW = [
     (11, only_the_fastest,
-     "Correct: links that touch or overlap; motions of length 0. Wrong: steps in which "
-     "several joints move. Sometimes wrong: steps in which one joint moves; steps that "
-     "reach the end of the motion."),
+     "Correct: links that touch or overlap; motions of length 0. Wrong in every test: "
+     "steps in which several joints move. Sometimes wrong: steps in which one joint "
+     "moves; steps that reach the end of the motion."),
     (11, further, "ometimes wrong for steps that end before"),
     (11, first_reach, "Correct: steps with equal radii; links that touch"),
     (11, steep_only,
      "Correct: velocities that are allowed; gradients of 0. Sometimes wrong: "
      "velocities that are too fast, at a positive distance; velocities that are too "
      "fast, at a distance of 0 or less."),
-    (11, shallow, "points beyond three faces. It is wrong for points in the box."),
+    (11, shallow, "points beyond three faces. It is wrong in every test for points in"),
     (12, long_edges, "worlds without a disc. Sometimes wrong: edges that "),
     (12, coarse, "correct for edges that are free. It is sometimes wrong for edges"),
     (12, capped, "Even for paths on which "),
@@ -367,7 +368,7 @@ def one_softmax(queries, keys, values):
 def test_a_case_is_wrong_where_only_equal_entries_make_it_right():
     row = rows_of(find_day(16))["attention"]
     assert told(row, best_key_alone) == (
-        "The result is correct for one key. It is wrong for several keys."
+        "The result is correct for one key. It is wrong in every test for several keys."
     )
     assert "correct" not in told(row, one_softmax)  # of several queries
 

@@ -52,7 +52,7 @@ def phrases_in(text, phrases):
 
 TOLD = {
     RIGHT: r"(?:is correct for|Correct:) ",
-    WRONG: r"(?:It is wrong for|Wrong:) ",
+    WRONG: r"(?:It is wrong in every test for|Wrong in every test:) ",
     "only": r"wrong(?:, but)? only for ",
 }
 END = re.compile(r"\.(?:\s|$)|, and sometimes wrong ")
@@ -67,9 +67,10 @@ def lists_in(says):
 
 
 def test_a_condition_is_read_from_each_form_of_the_sentence():
-    says = "The result is correct for a. It is wrong for b, and sometimes wrong for c."
+    says = "The result is correct for a. "
+    says += "It is wrong in every test for b, and sometimes wrong for c."
     assert dict(lists_in(says)) == {RIGHT: "a", WRONG: "b"}
-    says = "Correct: a; b. Wrong: c; d. Sometimes wrong: e."
+    says = "Correct: a; b. Wrong in every test: c; d. Sometimes wrong: e."
     assert dict(lists_in(says)) == {RIGHT: "a; b", WRONG: "c; d"}
     for says in ("wrong only for a.", "sometimes wrong, but only for a."):
         assert dict(lists_in(f"The result is {says}")) == {"only": "a"}

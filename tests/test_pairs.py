@@ -91,7 +91,7 @@ def test_each_wrong_result_of_several_has_its_own_mistake():
         return kp * e + kd * ed + np.clip(ki * integral, -clamp, clamp), integral
 
     says = told(5, "5.7", pid_step=pid_step)
-    one = "one mistake explains the acceleration: your code clamps ki times the"
+    one = "one mistake would explain the acceleration: your code clamps ki times the"
     assert f"In `pid_step`, {one} integral" in says
     assert "returns the unclamped integral" in says
 

@@ -83,14 +83,14 @@ def test_one_result_that_a_mistake_only_nearly_gives_is_not_told_by_it():
         (
             lambda x, d: (x.sum(), np.max(d) ** 3),
             "summed+other",
-            "One mistake explains the mean: the numbers are summed up. The square is "
-            "wrong in all 4 calls, too.",
+            "One mistake would explain the mean: the numbers are summed up. The square "
+            "is wrong in all 4 calls, too.",
         ),
         (
             lambda x, d: (x.sum(), np.mean(d) ** 2),
             "summed+squared-mean",
-            "One mistake explains the mean: the numbers are summed up. Another mistake "
-            "explains the square: the mean is squared.",
+            "One mistake would explain the mean: the numbers are summed up. Another "
+            "mistake would explain the square: the mean is squared.",
         ),
         (lambda x, d: (x.sum() + (len(x) == 5), np.max(d) ** 3), "off", "The mean is"),
         # The mistake is about both results, and one is right.

@@ -98,12 +98,12 @@ OF_ALL_JOINTS = (
     DEGREES,
     Change(
         "last-joint-missing",
-        "your code does not move the last joint. Does your loop end one joint early?",
+        "your code does not move the last joint. Does your loop leave out this joint?",
         partial(_only, slice(-1)),
     ),
     Change(
         "first-joint-missing",
-        "your code does not move the first joint. Does your loop start one joint late?",
+        "your code does not move the first joint. Does your loop leave out this joint?",
         partial(_only, slice(1, None)),
     ),
     Change(

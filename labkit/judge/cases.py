@@ -18,7 +18,7 @@ import numpy as np
 
 from labkit.base.exchange import Exchange, Question, Reply
 from labkit.judge import valid
-from labkit.judge.answers import listed
+from labkit.judge.answers import capitalised, listed
 from labkit.judge.ask import Ask, Asked, as_plain, right_answers
 from labkit.judge.carried import carried
 from labkit.judge.crossed import crossed
@@ -36,6 +36,7 @@ SECONDS = 1.5  # for drawing and comparing them, and as many for the replies
 CARRIED = 120  # calls of a case with arguments of others, at most
 BATCH = 40  # calls that are asked at once
 LISTED = 4  # cases in one list, at most
+ALWAYS = "wrong in every test"  # of some other call it may be right by chance
 SEED = 5947  # of the fresh inputs: none of the asked ones
 RIGHT, CLOSE, WRONG, NONE = "right", "close", "wrong", ""
 Call = tuple[Any, ...]
@@ -299,10 +300,11 @@ def _told(*lists: Sequence[str]) -> str:
     """Return the cases that are right, wrong and mixed: two sentences, or a list."""
     every = [phrase for some in lists for phrase in some]
     if len(every) > LISTED or any("," in phrase for phrase in every):
-        labels = zip(("Correct", "Wrong", "Sometimes wrong"), lists, strict=True)
+        hows = ("Correct", capitalised(ALWAYS), "Sometimes wrong")
+        labels = zip(hows, lists, strict=True)
         return " ".join(f"{how}: {'; '.join(some)}." for how, some in labels if some)
     right, *others = lists
-    pairs = zip(("wrong", "sometimes wrong"), others, strict=True)
+    pairs = zip((ALWAYS, "sometimes wrong"), others, strict=True)
     bad = [f"{how} for {listed(some)}" for how, some in pairs if some]
     return f"The result is correct for {listed(right)}. It is {', and '.join(bad)}."
 

@@ -86,11 +86,11 @@ def _gives(calls: Calls, every: Parts, j: int) -> bool:
 
 
 def _each_mistake(m: Matcher, told: Mapping[int, Mistake]) -> Iterator[str]:
-    """Yield what each mistake explains: "One mistake explains the mask: your ..."."""
+    """Yield what may explain each: "One mistake would explain the mask: your ..."."""
     first = "One mistake"
     for one in dict.fromkeys(told.values()):
         names = [_name(m, j) for j in sorted(told) if told[j] is one]
-        yield f"{first} explains {listed(names)}: {as_sentence(one.says)}"
+        yield f"{first} would explain {listed(names)}: {as_sentence(one.says)}"
         first = "Another mistake"
 
 

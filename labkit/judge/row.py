@@ -167,9 +167,9 @@ class Row:
         """Take cases of calls, so that a student is told which of them are right.
 
         The cases of one list are told together: "The result is correct for parallel
-        segments. It is wrong for segments that cross." A row may have several lists;
-        the one that leaves the fewest calls open is told. Each case needs inputs of
-        `inputs` or of `rare`.
+        segments. It is wrong in every test for segments that cross." A row may have
+        several lists; the one that leaves the fewest calls open is told. Each case
+        needs inputs of `inputs` or of `rare`.
 
         Args:
             some: by phrase, a plural noun that a student understands, a function of a

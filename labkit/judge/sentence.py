@@ -70,6 +70,8 @@ TELLING = {
     "sign", "negated", "sign-lost", "left-out", "factor", "transpose", "inverse",
     "squared", "root", "exchanged", "order", "unit", "rounded",
 }  # fmt: skip
+# Kinds of a formula as it is written, which another one need not have.
+OF_A_FORM = {"number", "scaled", "function", "name", "bracket", "line"}
 OF_A_VALUE = TELLING - {"left-out", "exchanged", "order"}
 CLAMPS = {  # that a value has where the reference has none
     ("maximum", "0.0"): "sets negative values to 0",
@@ -113,8 +115,7 @@ def _sentences(m: Any, mutant: Mutant) -> str:
         verb = "expression is" if len(texts) == 1 else "expressions are"
         does = what(mutant, given=_arguments(m, mutant)).removesuffix(ONCE)
         return f"Your code {does}. The wrong {verb} {listed(texts)}."
-    own = _own_function(m, mutant)
-    if tells(mutant) and (own is None or is_like(own.own, own.reference)):
+    if tells(mutant) and _is_like(m, mutant):
         return f"{capitalised(told(m, mutant))}."
     # Another algorithm may have no such sign, bracket or number, although its output is
     # the same.
@@ -196,17 +197,22 @@ def tells_of(m: Any, mutant: Mutant) -> bool:
 
     In another form a factor of two may stand for any term.
     """
-    own = mutant.kind == "factor" and _own_function(m, mutant)
-    return tells(mutant) and not (own and not is_like(own.own, own.reference))
+    return tells(mutant) and (mutant.kind != "factor" or _is_like(m, mutant))
+
+
+def _is_like(m: Any, mutant: Mutant) -> bool:
+    """Return whether the student's function is written like a mutant's, if known."""
+    own = _own_function(m, mutant)
+    return own is None or is_like(own.own, own.reference)
 
 
 def half(m: Any, mutant: Mutant) -> str:
     """Return what is said of one mutant of two; "" where it says too little."""
-    return told(m, mutant) if shows(m, mutant) else ""
+    return told(m, mutant, of_two=True) if shows(m, mutant) else ""
 
 
-def told(m: Any, mutant: Mutant) -> str:
-    """Return a clause on a mutant that stands alone."""
+def told(m: Any, mutant: Mutant, of_two: bool = False) -> str:
+    """Return a clause on a mutant that stands alone, or is one of two."""
     if line := own_line(m, mutant):
         code = f", `{line.text}`" if len(line.text) <= LONG else ""
         return f"in line {line.number}{code}, your code {what(mutant, line)}"
@@ -217,6 +223,8 @@ def told(m: Any, mutant: Mutant) -> str:
     does = f"{what(mutant, given=given)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
         return f"your code {does}"
+    if mutant.kind in OF_A_FORM and (of_two or not _is_like(m, mutant)):
+        does = "contains a mistake"
     return f"your code {for_steps(steps)} {does.removesuffix(EVERYWHERE)}"
 
 

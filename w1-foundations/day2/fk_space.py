@@ -44,6 +44,18 @@ def screws_moved_along(screws, M, q):
     return T @ M
 
 
+@row.wrong
+def screws_only_rotated(screws, M, q):
+    """your code moves the screws of the later joints, but it only rotates omega and v.
+    A screw that moves with the pose (R, p) also has the term p x (R omega) in v, so
+    multiply it by the adjoint of the pose"""
+    T = np.eye(4)
+    for S, theta in zip(screws, q, strict=True):
+        turned = np.concatenate([T[:3, :3] @ S[:3], T[:3, :3] @ S[3:]])
+        T = motion(turned, theta) @ T
+    return T @ M
+
+
 # One slip: what `places` names.
 
 for slug, slip in (

@@ -83,6 +83,17 @@ for before in (
     )
 
 
+for first in (np.eye(4), None):
+
+    @row.wrong("previous-links-axis")
+    def _(T_zero, first=first):
+        """your code uses the axis and the origin of the previous link. Joint i rotates
+        about the z axis of link i, so use the pose of this link"""
+        start = T_zero[0] if first is None else first
+        poses = np.array([start, *T_zero[:-1]])
+        return screw_axis(poses[:, :3, 2], poses[:, :3, 3])
+
+
 row.reached_by("screw_axis", "in every screw, ")
 
 

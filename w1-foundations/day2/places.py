@@ -1,6 +1,7 @@
 """Where in a product: the one joint or row that is wrong, and how it shows at q = 0."""
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import combinations
 
 import numpy as np
 
@@ -27,7 +28,26 @@ def unnamed(case: Case) -> Finding | None:
     fixed = Factor("M", M, False)
     in_space = bool(matches(case.T, product([s.T for s in steps], len(q)) @ M))
     chain = [*steps, fixed] if in_space else [fixed, *steps]
-    return one_place(case.S, case.T, chain) or _one_at_a_time(case)
+    Ts = [s.T for s in steps]
+    return (
+        one_place(case.S, case.T, chain)
+        or _two_swapped(case.S, Ts, M, in_space)
+        or _one_at_a_time(case)
+    )
+
+
+def _two_swapped(S: Array, Ts: list[Array], M: Array, in_space: bool) -> Finding | None:
+    """Return which two exponentials are in the wrong order, if that is all."""
+    for i, k in combinations(range(len(Ts)), 2):
+        order = list(range(len(Ts)))
+        order[i], order[k] = k, i
+        moved = product([Ts[j] for j in order], len(S))
+        if matches(S, moved @ M if in_space else M @ moved):
+            says = f"The exponentials of joint{i + 1} and joint{k + 1} are swapped in "
+            return Finding(
+                "pose-off", f"{says}your product. Use the order of the joints."
+            )
+    return None
 
 
 def unnamed_row(case: Case) -> Finding | None:
@@ -150,8 +170,8 @@ def _one_at_a_time(case: Case) -> Finding | None:
         return None
     if not off:
         where = (
-            "If only one joint moves at a time, your pose is correct. Look at the "
-            "order of the exponentials in the product."
+            "If only one joint moves at a time, your pose is correct. Check how the "
+            "motion of one joint moves the axes of the joints after it."
         )
     else:
         where = "If only one joint moves at a time, your pose is wrong for "

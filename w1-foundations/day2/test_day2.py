@@ -354,7 +354,7 @@ ONE_BY_ONE = {
     "your pose is wrong for joint2, joint4 and joint6.": lambda S, M, q: space(
         S, M, q * [1, 2, 1, 2, 1, 2, 1]
     ),
-    "Look at the order of the exponentials": lambda S, M, q: space(
+    "The exponentials of joint2 and joint3 are swapped": lambda S, M, q: space(
         S[ORDER], M, q[ORDER]
     ),
 }

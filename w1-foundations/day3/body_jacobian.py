@@ -39,10 +39,14 @@ def _(J_space, T):
       this is the block R [p] instead of [p] R
     turned-by-R: both halves of your result are multiplied by R, which rotates from the
       hand frame to the world frame. Use R^T instead
+    point-not-rotated: your v contains the term (R^T omega) x p with p in the world
+      frame, where R and p are the rotation and the translation of T. Use R^T (omega x
+      p) instead, so that both factors are expressed in the same frame
     """
     J_site = site_jacobian(J_space, T[:3, 3])
     R = np.kron(np.eye(2), T[:3, :3])
     back = se3.inverse(T)
+    shift = np.kron([[0.0, 0.0], [1.0, 0.0]], -skew(T[:3, 3]))
     turned = np.kron(np.eye(2), back[:3, :3])
     lower = np.kron([[0.0, 0.0], [1.0, 0.0]], skew(back[:3, 3]))
     return {
@@ -53,6 +57,7 @@ def _(J_space, T):
         "bracket-without-R": (turned + lower) @ J_space,
         "bracket-on-the-right": (turned + turned @ lower) @ J_space,
         "turned-by-R": R @ J_site,
+        "point-not-rotated": (np.eye(6) + shift) @ R.T @ J_space,
     }
 
 

@@ -123,13 +123,21 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
         return None
     if _reached(T_goal, q_start, limits, 45):
         says = "Your result does not reach a nearby target. The norm of its pose error "
-        return Finding(
-            "not-reached",
-            f"{says}is {after:.2g} (in rad and m). Does your loop stop before this "
-            "norm is below 1e-8? Or are the steps too short, for example because the "
-            "damping differs from the damping in the docstring?",
-        )
+        says += f"is {after:.2g} (in rad and m). "
+        return Finding("not-reached", says + _why(beyond))
     return _as_the_docstring(T_goal, q_start, limits, after)
+
+
+def _why(beyond: Array) -> str:
+    """Return what to check of a loop that does not arrive, by how far q is beyond."""
+    if beyond.max() > -1e-9:
+        joint = f"joint{int(np.argmax(beyond)) + 1}"
+        return f"{joint} ends at its limit. Apply the limits after each step."
+    return (
+        "Does your loop stop before this norm is below 1e-8? Or are the steps too "
+        "short, for example because the damping differs from the damping in the "
+        "docstring?"
+    )
 
 
 def _half_there(S, M, T_goal, q) -> Finding | None:

@@ -26,7 +26,7 @@ def which_answer(case: Case) -> Finding:
     kind, S, T = parts[at]
     rest = f"Your {NAMES[1 - at]} is correct."
     if all(bad):
-        rest = "Both of your results are wrong. Look at the integral first."
+        rest = "Both of your results are wrong."
     often = f"Your {NAMES[at]} is wrong {in_calls(int(wrong[at].sum()), len(S))}."
     what = kind.what_is_wrong(S, T).message
     if not what.startswith(ERROR):
@@ -136,9 +136,8 @@ def _(e, ed, integral, ki, dt, clamp):
 def _(e, ed, integral, kp, kd, ki, dt, clamp):
     """clamped-too-late: your code computes the acceleration from the unclamped
       integral. Use the clamped integral instead
-    bound-not-handed-back: your code uses the clamped integral in the acceleration, but
-      it returns the unclamped integral. Return the clamped integral too, so that the
-      integral cannot grow without bound
+    bound-not-handed-back: your code returns the unclamped integral. Return the clamped
+      integral instead, so that the integral cannot grow without bound
     old-integral-used: your acceleration contains the integral of the previous step. Use
       the updated integral instead
     old-integral-kept: your code returns the old integral. Return the updated integral

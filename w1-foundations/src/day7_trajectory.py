@@ -124,7 +124,7 @@ def trapezoidal_profile(t: float, L: float, v: float, a: float) -> np.ndarray:
     return np.array([
         L - a * left**2 / 2,  # the position during the deceleration
         a * left,  # the velocity during the deceleration
-        -a if left else 0.0,  # the acceleration, 0 after the end
+        -a if left else 0.0,  # the acceleration during the deceleration
     ])  # fmt: skip
     # endregion 7.4
 

@@ -45,13 +45,14 @@ def seen(a, b, discs):
     """Return what an edge is, by the first of these that it is."""
     if not len(discs):
         return "no disc"
-    if not np.any(b - a):
-        return "point"
-    part = np.clip((discs[:, :2] - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
+    square = (b - a) @ (b - a) or 1.0
+    part = np.clip((discs[:, :2] - a) @ (b - a) / square, 0, 1)
     foot = a + part[:, None] * (b - a)
     gaps = np.linalg.norm(discs[:, :2] - foot, axis=1) - discs[:, 2]
     if abs(gaps.min()) < 1e-9:
         return "touches"
+    if not np.any(b - a):
+        return "point"
     away = np.linalg.norm(np.array([a, b])[:, None] - discs[:, :2], axis=2)
     if gaps.min() < 0:
         return "end" if np.any(away <= discs[:, 2]) else "between"
@@ -97,6 +98,7 @@ def _(rng):
     x, y, r = size * (rng.integers(-4, 5, 3) / 4.0 + [0, 0, 1.5])
     start, end = np.array([[x - 2, y + r], [x + 2, y + r]])
     yield start, end, np.array([[x, y, r]])
+    yield np.array([x, y + r]), np.array([x, y + r]), np.array([[x, y, r]])
     yield a, b + 4.0, discs(rng, 1)
 
 

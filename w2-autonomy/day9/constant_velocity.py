@@ -31,6 +31,9 @@ def _(dt, accel_psd):
     Q-of-a-held-acceleration: your code uses the Q for an acceleration that is constant
       during a time step. Use dt^3 / 3, dt^2 / 2 and dt instead, because the
       acceleration is white noise
+    Q-of-a-held-acceleration 2: your code uses the Q for an acceleration that is
+      constant during a time step. Only the entry of the angle differs: use dt^3 / 3
+      instead of dt^3 / 4, because the acceleration is white noise
     Q-is-q-1: your code uses accel_psd times the identity matrix as Q. Multiply
       accel_psd by [[dt^3 / 3, dt^2 / 2], [dt^2 / 2, dt]] instead
     Q-is-q-dt-1: your code uses accel_psd dt times the identity matrix as Q. Multiply
@@ -55,6 +58,7 @@ def _(dt, accel_psd):
     Qs = {
         "Q-diagonal-only": noise(a, 0.0, c, accel_psd),
         "Q-of-a-held-acceleration": noise(dt**4 / 4, dt**3 / 2, dt**2, accel_psd),
+        "Q-of-a-held-acceleration 2": noise(dt**3 / 4, b, c, accel_psd),
         "Q-is-q-1": noise(1.0, 0.0, 1.0, accel_psd),
         "Q-is-q-dt-1": noise(c, 0.0, c, accel_psd),
         "Q-speed-only": noise(0.0, 0.0, c, accel_psd),
