@@ -362,7 +362,7 @@ def test_a_change_that_no_line_of_the_file_has_is_told_of_the_correct_formula():
     says = judged(4, "4.2", link_inertias).message
     assert says.startswith(
         "Your code gives the same result as a solution whose code for the centre of "
-        "mass in the world frame opens or closes a bracket in the wrong place."
+        "mass in the world frame contains a mistake."
     )
     assert "gives the same output" not in says  # the first sentence says it
 

@@ -71,7 +71,9 @@ TELLING = {
     "squared", "root", "exchanged", "order", "unit", "rounded",
 }  # fmt: skip
 # Kinds of a formula as it is written, which another one need not have.
-OF_A_FORM = {"number", "scaled", "function", "name", "bracket", "line"}
+OF_A_FORM = {
+    "number", "scaled", "function", "name", "bracket", "line", "clamp", "added",
+}  # fmt: skip
 OF_A_VALUE = TELLING - {"left-out", "exchanged", "order"}
 CLAMPS = {  # that a value has where the reference has none
     ("maximum", "0.0"): "sets negative values to 0",
@@ -208,11 +210,11 @@ def _is_like(m: Any, mutant: Mutant) -> bool:
 
 def half(m: Any, mutant: Mutant) -> str:
     """Return what is said of one mutant of two; "" where it says too little."""
-    return told(m, mutant, of_two=True) if shows(m, mutant) else ""
+    return told(m, mutant) if shows(m, mutant) else ""
 
 
-def told(m: Any, mutant: Mutant, of_two: bool = False) -> str:
-    """Return a clause on a mutant that stands alone, or is one of two."""
+def told(m: Any, mutant: Mutant) -> str:
+    """Return a clause on a mutant that stands alone."""
     if line := own_line(m, mutant):
         code = f", `{line.text}`" if len(line.text) <= LONG else ""
         return f"in line {line.number}{code}, your code {what(mutant, line)}"
@@ -223,7 +225,7 @@ def told(m: Any, mutant: Mutant, of_two: bool = False) -> str:
     does = f"{what(mutant, given=given)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
         return f"your code {does}"
-    if mutant.kind in OF_A_FORM and (of_two or not _is_like(m, mutant)):
+    if mutant.kind in OF_A_FORM:
         does = "contains a mistake"
     return f"your code {for_steps(steps)} {does.removesuffix(EVERYWHERE)}"
 

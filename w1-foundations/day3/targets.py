@@ -130,13 +130,12 @@ def arrived(S, M, T_goal, q_start, limits, q) -> Finding | None:
 
 def _why(beyond: Array) -> str:
     """Return what to check of a loop that does not arrive, by how far q is beyond."""
+    says = "Does your loop stop before this norm is below 1e-8? "
     if beyond.max() > -1e-9:
-        joint = f"joint{int(np.argmax(beyond)) + 1}"
-        return f"{joint} ends at its limit. Apply the limits after each step."
+        says += "Does your code apply the joint limits after each step? "
     return (
-        "Does your loop stop before this norm is below 1e-8? Or are the steps too "
-        "short, for example because the damping differs from the damping in the "
-        "docstring?"
+        f"{says}Or are the steps too short, for example because the damping differs "
+        "from the damping in the docstring?"
     )
 
 

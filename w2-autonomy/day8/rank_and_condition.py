@@ -6,7 +6,7 @@ from labkit.judge import Count, Row, Scalar
 from labkit.judge.ask import Case
 from labkit.judge.mistake import Finding
 
-from .states import CUT, hidden, regressors, spread, stairs, uneven
+from .states import CUT, hidden, regressors, spread, stairs, steep, uneven
 
 
 def of_what_counts(case: Case) -> Finding | None:
@@ -65,6 +65,12 @@ def miscounted(more: int, fewer: int, calls: str) -> str:
     return f"{says}Count the values above rtol times the largest one."
 
 
+def chained(s, rtol):
+    """Return how many singular values stand before the first large gap."""
+    gaps = s[1:] <= rtol * s[:-1]
+    return int(np.argmax(gaps)) + 1 if gaps.any() else len(s)
+
+
 KIND = Count(called="the rank"), Scalar(called="the condition number")
 row = Row(KIND, unnamed=of_what_counts, unnamed_names=True)
 row.at_least_0(rtol="a tolerance", answer="a count, and a ratio of norms")
@@ -76,6 +82,7 @@ def _(rng):
     even = [(Y[:, :k], CUT) for k, Y in zip((1, 2, 3), regressors(rng, 3), strict=True)]
     exact = (hidden(rng), 1e-9)  # by Y^T Y its zeros are 1e-8 of the largest
     near = [(Y, CUT) for Y in (uneven(rng, 5.0), uneven(rng, 8.0), stairs(rng))]
+    near.append((steep(rng), CUT))
     drawn = [*regressors(rng), *spread(rng)]
     return [(CASE, 1e-9), exact, *near, *even, *((Y, CUT) for Y in drawn)]
 
@@ -108,6 +115,10 @@ for slug, says, told in (
      "default tolerance. Use rtol times the largest singular value as the limit "
      "instead",
      lambda s, rtol, m: (n := np.sum(s > rtol * m * s[0]), s[0] / s[n - 1])),
+    ("cut-by-the-one-before",
+     "your code compares each singular value with rtol times the one before it. Use "
+     "rtol times the largest singular value as the limit instead",
+     lambda s, rtol: (n := chained(s, rtol), s[0] / s[n - 1])),
     ("rtol-not-used",
      "your code uses a constant as the tolerance. Use the argument `rtol` instead",
      lambda s, rtol: (n := np.sum(s > 1e-9 * s[0]), s[0] / s[n - 1])),

@@ -95,6 +95,17 @@ def stairs(rng, rows=20):
     return U * s @ V.T
 
 
+def steep(rng, rows=20):
+    """Return a matrix, (rows, 6), with two singular values above CUT.
+
+    Three are above CUT times the one before, until one is not.
+    """
+    s = 100.0 * np.array([1.0, 0.05, 2.5e-3, 5e-6, 2e-6, 1e-6])
+    U = np.linalg.qr(rng.normal(size=(rows, 6)))[0]
+    V = np.linalg.qr(rng.normal(size=(6, 6)))[0]
+    return U * s @ V.T
+
+
 def hidden(rng, rows=40):
     """Return a matrix, (rows, 6), of rank 4 but for rounding."""
     return rng.normal(size=(rows, 4)) @ rng.normal(size=(4, 6))
