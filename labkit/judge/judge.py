@@ -60,6 +60,7 @@ from robo47.checks import Array
 
 # What a kind says of answers with the number of calls in it.
 COUNTED = ("too-often-true", "too-seldom-true", "both-ways")
+PLACED = re.compile(r"\bfor |line \d|`")  # a change that has a place
 NO_CALL = ("kept-between-calls", "draws-itself")  # the same call gives something else
 
 
@@ -429,7 +430,7 @@ def _unnamed(case: Case) -> Finding | None:
 def _with_its_place(case: Case, slip: Finding) -> Finding:
     """Return a slip, and before it where the row says that answers go wrong."""
     where = _unnamed(case) if case.ask.before_slips else None
-    if where is None or case.ask.unnamed_names:
+    if where is None or case.ask.unnamed_names or not PLACED.search(slip.message):
         return where or slip
     return Finding(where.slug, f"{where.message} {slip.message}")
 

@@ -173,16 +173,17 @@ class Jacobian(Matrix):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
             return found
-        wrong = gap(S, T).max(axis=0) > RIGHT * self.scale
+        each = gap(S, T) > RIGHT * self.scale
+        wrong = each.any(axis=0)
         bad = np.flatnonzero(wrong.any(axis=0))
         halves = np.flatnonzero(wrong.reshape(2, -1).any(axis=1))
         half = ("omega", "v")[halves[0]] if len(halves) == 1 else ""
         if len(bad) == 1:
             says = f"Every column is correct except the column of joint {bad[0] + 1}."
         elif bad[0] > 0 and len(bad) == self.shape[1] - bad[0]:
-            says = (
-                f"The columns are correct up to joint {bad[0]}. All later columns are "
-            )
+            columns = each[each.any(axis=(1, 2))].any(axis=1)
+            which = "All later" if columns[:, bad].all() else "Later"
+            says = f"The columns are correct up to joint {bad[0]}. {which} columns are "
             says += "wrong."
         else:
             says = ""

@@ -66,12 +66,26 @@ class OwnFunction:
         for node in around:
             text = _named(node, self.names)
             mine = self._own_expressions.get(text)
-            if mine is None:
+            if mine is None or not self._knows(node):
                 continue
             if _tells(node) and text not in self._right:
                 one = ast.unparse(mine)
                 found = one if len(one) <= most else found
         return found
+
+    def _knows(self, node: ast.expr) -> bool:
+        """Return whether each variable of an expression is one of the student's.
+
+        A counter `i` of both may count other things.
+        """
+        names = {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
+        made = {
+            n.id
+            for statement in self._reference
+            for n in ast.walk(statement)
+            if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
+        }
+        return names & made <= set(self.names)
 
     @cached_property
     def _own_expressions(self) -> dict[str, ast.expr]:

@@ -366,6 +366,7 @@ def _told(mutants: Sequence[Mutant], source: str, calls: int) -> str:
     """Return where the changes are that make all answers right; "" if anywhere."""
     near = [mutant for mutant in mutants if mutant.rank < FAR]
     found = near or mutants
+    found = sorted(found, key=lambda mutant: mutant.rank)
     numbers = list(dict.fromkeys(mutant.spans[0][0] for mutant in found))
     if not 1 <= len(numbers) <= LINES:
         return ""

@@ -28,6 +28,7 @@ from robo47.checks import Array
 
 QUESTIONS = 6  # per experiment; five of them at least must agree
 AGREE = 5
+FEW = 8  # fresh calls in which another argument is made neutral, too
 ALIKE = 3  # answers that grow by one factor, at least
 TRIED = 50  # inputs at which a sentence is tried, at least
 NOTHING = 1e-12  # a right answer as small as this says nothing
@@ -184,6 +185,7 @@ class Experiments:
             for call in self.drawn()
             for one in ([call] if claim.holds(call) else claim.made(call)[:1])
         ]
+        made += [two for one in made[:FEW] for two in _with_another_neutral(claim, one)]
         some = list(filter(self._definite, made))
         pairs = zip(self.mine(some), self.truth(some), strict=True)
         return all(self._is_right(answer, its) is not False for answer, its in pairs)
@@ -503,6 +505,18 @@ def _neutral_in(k: int, neutral: Neutral, call: Call) -> list[Call]:
     """Return a call with argument k neutral in one way; none if it cannot be."""
     same = (one for one in neutrals(call[k]) if one.says == neutral.says)
     return [(*call[:k], one.value, *call[k + 1 :]) for one in same]
+
+
+def _with_another_neutral(claim: Claim, call: Call) -> Iterator[Call]:
+    """Yield calls in which another argument is neutral as well: a bound is 0, as x is.
+
+    They only contradict.
+    """
+    for k, x in enumerate(call):
+        for one in neutrals(x) if k != claim.k else ():
+            made = (*call[:k], one.value, *call[k + 1 :])
+            if claim.holds(made):
+                yield made
 
 
 def _doubled(calls: Sequence[Call], k: int) -> list[Call]:

@@ -22,7 +22,8 @@ def _(J, G, qd, g):
     """coriolis-twice: your gravity torque is correct, but your Coriolis and centrifugal
       torques are twice the correct values. Does your code add a velocity term twice?
     coriolis-half: your gravity torque is correct, but your Coriolis and centrifugal
-      torques are half the correct values. Does your code omit a velocity term?
+      torques are half the correct values. Does your code omit a velocity term, or halve
+      their sum?
     speed-in-place-of-acceleration: your result is the torque for the acceleration qd
       and the velocity 0. Use qd as the velocity and 0 as the acceleration
     gravity-left-out: your result omits the gravity torque, so it contains only the

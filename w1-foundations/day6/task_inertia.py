@@ -56,9 +56,10 @@ def _(J, M):
       to an acceleration. Lambda should map an acceleration to a wrench
     M-not-inverted: your result is J M J^T. Lambda should be the inverse of J M^-1 J^T,
       because M^-1 maps the joint torques J^T F to joint accelerations
-    pinv-both-sides: your code returns pinv(J)^T M pinv(J), which is correct only for an
-      arm with six joints. Invert J M^-1 J^T instead, because the seventh joint also
-      allows internal motions, which reduce the inertia at the hand
+    pinv-both-sides: your code returns pinv(J)^T M pinv(J). This is correct if J is
+      square, but in general not for seven joints. Invert J M^-1 J^T instead, because
+      the seventh joint also allows internal motions, which reduce the inertia at the
+      hand
     armature-left-out: your result omits the armature (the rotor inertia of the motors).
       Use M unchanged, because the rotors contribute to the inertia at the hand
     armature-twice: your result contains the armature twice. Use M unchanged, because M
