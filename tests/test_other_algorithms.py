@@ -197,3 +197,29 @@ def test_a_factor_in_another_form_may_stand_for_any_term():
     says = told(1, "1.4", quat_to_R=quat_to_R)
     assert "factor of two" not in says
     assert "not orthonormal" in says
+
+
+# By the quaternion, whose scalar part may be negative.
+OVER_PI = """
+def log_rotation(R):
+    k = int(np.argmax(np.append(np.trace(R), np.diag(R))))
+    if k == 0:
+        w = np.sqrt(1 + np.trace(R)) / 2
+        v = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+        v = v / (4 * w)
+    else:
+        i, j, m = k - 1, k % 3, (k + 1) % 3
+        v = np.zeros(3)
+        v[i] = np.sqrt(1 + R[i, i] - R[j, j] - R[m, m]) / 2
+        v[j] = (R[j, i] + R[i, j]) / (4 * v[i])
+        v[m] = (R[m, i] + R[i, m]) / (4 * v[i])
+        w = (R[m, j] - R[j, m]) / (4 * v[i])
+    size = np.linalg.norm(v)
+    return 2 * np.arctan2(size, w) * v / size if size else np.zeros(3)
+"""
+
+
+def test_a_sign_without_a_place_adds_nothing_to_what_the_row_says(student):
+    says = told_of_a_file(3, "3.3", "log_rotation", student, OVER_PI)
+    assert "Your angle is more than pi for " in says
+    assert "reverses one sign" not in says

@@ -149,3 +149,22 @@ def closest_points_segments(a0, a1, b0, b1):
 """
     message = told(11, "11.1", "closest_points_segments", student, own)
     assert "across" not in message
+
+
+PROXIMAL = """
+def mass_matrix(J_space, G, armature):
+    n = len(G)
+    carried = [np.sum(G[i:], axis=0) for i in range(n)]
+    M = np.diag(np.asarray(armature, dtype=float))
+    for i in range(n):
+        for j in range(n):
+            M[i, j] += J_space[:, i] @ carried[min(i, j)] @ J_space[:, j]
+    return M
+"""
+
+
+def test_a_counter_of_ones_own_is_not_that_of_a_solution(student):
+    """A right solution has `G[j:]`, and `G[i:]` is right in this one."""
+    says = told(4, "4.3", "mass_matrix", student, PROXIMAL)
+    assert "wrong expression" not in says
+    assert "a wrong index or range" in says

@@ -283,3 +283,32 @@ def test_a_function_that_is_right_with_one_entry_is_told_so():
         right=[len(z) == 1 for z, _ in calls],
     )
     assert seen.neutral() == "The result is correct whenever `z` has one entry."
+
+
+def test_a_condition_is_tried_with_another_argument_neutral_as_well():
+    """Only at a bound it shows: x is 0, and so is the lower bound."""
+    rng = np.random.default_rng(6)
+    calls = [(rng.uniform(-1, 1, 3), rng.uniform(-9, -5, 3)) for _ in range(60)]
+
+    def answers_of(function):
+        return lambda some: [function(*call) for call in some]
+
+    def right(x, low):
+        return np.where(x <= low, 1.0, x + low)
+
+    def wrong(x, low):
+        return np.where(x == low, 2.0, x * x * x + x + low)
+
+    seen = Experiments(
+        calls[-6:],
+        ["x", "low"],
+        answers_of(lambda x, low: wrong(x, low)),
+        answers_of(right),
+        1e-5,
+        known=calls,
+        right=[False] * len(calls),
+        drawn=lambda: calls,
+    )
+    assert "`x` is 0" not in seen.neutral()
+    without = replace(seen, mine=answers_of(lambda x, low: x**3 + right(x, low)))
+    assert "whenever `x` is 0" in without.neutral()

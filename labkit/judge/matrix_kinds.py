@@ -173,17 +173,14 @@ class Jacobian(Matrix):
     def what_is_wrong(self, S: Array, T: Array) -> Finding:  # noqa: D102
         if found := one_factor(self, S, T):
             return found
-        each = gap(S, T) > RIGHT * self.scale
-        wrong = each.any(axis=0)
+        wrong = gap(S, T).max(axis=0) > RIGHT * self.scale
         bad = np.flatnonzero(wrong.any(axis=0))
         halves = np.flatnonzero(wrong.reshape(2, -1).any(axis=1))
         half = ("omega", "v")[halves[0]] if len(halves) == 1 else ""
         if len(bad) == 1:
             says = f"Every column is correct except the column of joint {bad[0] + 1}."
         elif bad[0] > 0 and len(bad) == self.shape[1] - bad[0]:
-            columns = each[each.any(axis=(1, 2))].any(axis=1)
-            which = "All later" if columns[:, bad].all() else "Later"
-            says = f"The columns are correct up to joint {bad[0]}. {which} columns are "
+            says = f"The columns are correct up to joint {bad[0]}. Later columns are "
             says += "wrong."
         else:
             says = ""

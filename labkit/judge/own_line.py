@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 LEAST = 4  # nodes of a line that tells something: x = y could be any
 SYMMETRIC = (ast.Add, ast.Mult)
+LOOPS = (ast.For, ast.comprehension)
 
 
 class Line(NamedTuple):
@@ -74,18 +75,19 @@ class OwnFunction:
         return found
 
     def _knows(self, node: ast.expr) -> bool:
-        """Return whether each variable of an expression is one of the student's.
+        """Return whether the counters in an expression are the student's.
 
-        A counter `i` of both may count other things.
+        An `i` of both may count other things.
         """
         names = {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
-        made = {
+        loops = (n for n in ast.walk(self.reference) if isinstance(n, LOOPS))
+        counters = {
             n.id
-            for statement in self._reference
-            for n in ast.walk(statement)
-            if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
+            for loop in loops
+            for n in ast.walk(loop.target)
+            if isinstance(n, ast.Name)
         }
-        return names & made <= set(self.names)
+        return names & counters <= set(self.names)
 
     @cached_property
     def _own_expressions(self) -> dict[str, ast.expr]:
