@@ -114,7 +114,7 @@ row.reached_by(
     "log_rotation",
     "for the rotation error R, ",
     but=("textbook-formula", "nan-at-0", "arccosine-beyond-1", "fixed-column"),
-    called={"your vector": "its rotation vector", "the vector": "the rotation vector"},
+    called={"your vector": "your rotation vector", "the vector": "the rotation vector"},
 )
 
 
