@@ -385,3 +385,32 @@ def test_factors_that_belong_together_are_called_so():
     says = told(9, "9.8", kinetic_energy_gradient=kinetic_energy_gradient)
     assert "Two mistakes together explain your result. " in says
     assert says.endswith(f"{pairs.MULTIPLY}.")
+
+
+def test_a_pair_that_cancels_in_a_right_entry_is_not_told():
+    """The inverse has R^T, its transpose R, and R is right; -R t is what is left."""
+
+    def make_T(R, t):
+        T = np.eye(4)
+        T[:3, :3], T[:3, 3] = R, -R @ t
+        return T
+
+    says = told(1, "1.1", make_T=make_T)
+    assert "wo mistakes" not in says
+    assert "The rotation is correct in every call" in says
+
+
+def test_a_change_of_a_wrong_answer_is_told_as_made_after_it():
+    def inverse(T):
+        return np.block([[T[:3, :3].T, T[:3, :3] @ T[:3, 3:]], [np.eye(4)[3:]]])
+
+    says = told(1, "1.3", inverse=inverse)
+    assert says.startswith("Two mistakes, made one after the other, explain your")
+
+
+def test_a_number_that_is_always_0_is_no_array():
+    def quintic_duration(displacement, v_max, a_max):
+        return 0.0
+
+    says = told(7, "7.2", quintic_duration=quintic_duration)
+    assert says == "Your result is 0 for every input."

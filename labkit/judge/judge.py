@@ -594,6 +594,8 @@ def _nothing_there(m: Matcher) -> Finding | None:
         return None  # of no entry nobody says that it is 0
     if not all(kind.empty for kind in m.ask.kinds):
         return None
+    if all(part[0].size == 1 for part in m.S):
+        return Finding("all-zeros", "Your result is 0 for every input.")
     says = "Every entry of your output is 0 for every input. Did you create the array "
     says += "but never fill it?"
     if {"model", "data"} & set(m.case.names):

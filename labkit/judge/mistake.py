@@ -17,6 +17,7 @@ BOTH = "the reference solution with both mistakes"
 AS_A_SOLUTION = "Your code gives the same result as a solution"
 THE_PLACE = r"The wrong (line|expressions?) (is|are) |[Ii]n (line \d|`)"
 TOGETHER = "Two mistakes together explain your result."
+IN_TURN = "Two mistakes, made one after the other, explain your result."
 ADD_UP = "The errors of both mistakes add up to the error of your code"
 YOUR_CODE = "your code "
 _BOTH = re.compile(r" => both$")
@@ -104,7 +105,7 @@ class Mistake:
         return f"{BOTH if self.both else REDONE} {evidence}"
 
 
-def both_told(first: str, second: str) -> str:
+def both_told(first: str, second: str, in_turn: bool = False) -> str:
     """Return two clauses on two mistakes as sentences; "your code" is said once.
 
     After another subject, or a rule, it would not be clear what "it" is, and "your code
@@ -113,7 +114,7 @@ def both_told(first: str, second: str) -> str:
     if first.startswith(YOUR_CODE) and ". " not in first:
         second = re.sub(f"^{YOUR_CODE}(?!for )", "it ", second)
     says = as_sentence(f"First, {first}"), as_sentence(f"Second, {second}")
-    return f"{TOGETHER} {' '.join(says)}"
+    return f"{IN_TURN if in_turn else TOGETHER} {' '.join(says)}"
 
 
 def as_sentence(says: str) -> str:

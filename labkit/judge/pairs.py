@@ -11,6 +11,7 @@ from itertools import combinations, islice
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from labkit.judge import changes
 from labkit.judge.answers import (
@@ -56,6 +57,7 @@ class _Two(NamedTuple):
     first: Mistake
     second: Mistake
     how: str = MADE
+    in_turn: bool = False  # whether the second is a change of what the first gives
 
 
 def of_its_own_first(m: Matcher) -> list[Mistake]:
@@ -72,21 +74,55 @@ def two_at_once(m: Matcher) -> Finding | None:
     for i in dict.fromkeys([m.i] if m.costly else [m.i, m.furthest]):
         pairs = _Pairs(m, i, effort)
         some = (pairs.of_its_kind, pairs.added, pairs.finished, pairs.in_turn)
-        if found := next(filter(None, (one() for one in some)), None):
-            *two, how = found
+        tried = filter(None, (one() for one in some))
+        if found := next((two for two in tried if not _cancel(m, two)), None):
+            two = (found.first, found.second)
             says = [_BUT.sub("", one.says) for one in two]
-            return _told(m, [one.slug for one in two], says, how)
+            slugs = [one.slug for one in two]
+            return _told(m, slugs, says, found.how, found.in_turn)
     return None
 
 
+def _cancel(m: Matcher, two: "_Two") -> bool:
+    """Return whether an entry is right in all answers that each half makes wrong.
+
+    A transposed inverse has the right rotation; neither half is seen in it.
+    """
+    halves = [_alone(m, one) for one in (two.first, two.second)]
+    return any(
+        bool((~_off(s, t) & _off(a, t) & _off(b, t)).any())
+        for s, t, a, b in zip(m.S, m.T, *halves, strict=False)
+        if s.shape == t.shape == a.shape == b.shape
+    )
+
+
+def _alone(m: Matcher, one: Mistake) -> Parts:
+    """Return the answers to the main questions of one mistake alone."""
+    if isinstance(one.redo, InTurn):
+        return m.main.answers(one.redo)
+    return _changed(one, m.main.T)
+
+
+def _off(some: Array, right: Array) -> NDArray[np.bool_]:
+    """Return which entries of answers, (n, ...), are off in some call, (...)."""
+    far = np.abs(some - right) > MATCHES * (1.0 + np.abs(right))
+    return np.asarray(far.any(axis=0))
+
+
 def _told(
-    m: Matcher, slugs: Sequence[str], says: Sequence[str], how: str
+    m: Matcher,
+    slugs: Sequence[str],
+    says: Sequence[str],
+    how: str,
+    in_turn: bool = False,
 ) -> Finding | None:
     """Return what is said of a pair; None where both halves say the same."""
     says = [_RULE.split(one)[0] for one in says]  # a rule would break the list
     if len(set(says)) < len(says):
         return None
-    return Finding("+".join(slugs), f"{both_told(*says)} {m.with_error(how)}")
+    first, second = says
+    told = both_told(first, second, in_turn)
+    return Finding("+".join(slugs), f"{told} {m.with_error(how)}")
 
 
 @dataclass(frozen=True)
@@ -166,7 +202,7 @@ class _Pairs:
                 for calls in filter(None, (self.m.main, self.m.fresh))
             ]
             if self._all_fit(made):
-                return _Two(first, change)
+                return _Two(first, change, in_turn=True)
         return None
 
     def _all_fit(self, made: Sequence[Parts]) -> bool:
@@ -193,7 +229,7 @@ class _Pairs:
                     continue
                 redo = partial(_finished, change, self.mistakes[k].redo)
                 if self.m.holds(redo):
-                    return _Two(self.mistakes[k], change)
+                    return _Two(self.mistakes[k], change, in_turn=True)
         return None
 
     def in_turn(self) -> _Two | None:
