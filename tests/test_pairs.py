@@ -414,3 +414,14 @@ def test_a_number_that_is_always_0_is_no_array():
 
     says = told(7, "7.2", quintic_duration=quintic_duration)
     assert says == "Your result is 0 for every input."
+
+
+def test_a_joint_that_is_left_out_is_counted_from_the_base():
+    def fk_body(screws, M, q):
+        T = np.array(M)
+        for S, theta in zip(screws[:0:-1], q[:0:-1], strict=True):
+            T = T @ right(2, "exp_screw")(S, theta)
+        return T
+
+    says = told(2, "2.8", fk_body=fk_body)
+    assert "does not move the first joint. Second, it multiplies" in says

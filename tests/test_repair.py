@@ -242,3 +242,45 @@ def test_a_line_stands_beside_a_mistake_without_a_place(tmp_path):
     says = says_of(tmp_path, 3, "3.9", "body_jacobian", TURNED).message
     assert says.startswith("Your code for the velocity of the hand's origin reverses ")
     assert "One change in line " in says
+
+
+# The offset of the first body, which is right there, is used for the second as well.
+STALE = """
+def combine_bodies(m1, c1, I1, m2, c2, I2):
+    m = m1 + m2
+    c = (m1 * c1 + m2 * c2) / m
+    d = c1 - c
+    I = I1 + m1 * (d @ d * np.eye(3) - np.outer(d, d))
+    I = I + I2 + m2 * (d @ d * np.eye(3) - np.outer(d, d))
+    return np.array([m, *c, *np.diag(I), I[0, 1], I[0, 2], I[1, 2]])
+"""
+THIRD_ROW = """
+def quat_to_R(quat):
+    w, x, y, z = quat / np.linalg.norm(quat)
+    row1 = [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)]
+    row2 = [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)]
+    row3 = [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + z * z)]
+    return np.array([row1, row2, row3])
+"""
+
+
+def test_a_line_is_quoted_only_if_a_change_in_it_makes_all_right(tmp_path):
+    says = says_of(tmp_path, 7, "7.8", "combine_bodies", STALE).message
+    assert "The wrong line" not in says
+    assert "`c1` where another value belongs." in says
+    says = says_of(tmp_path, 1, "1.4", "quat_to_R", THIRD_ROW).message
+    assert "The wrong line is line " in says
+
+
+POLES = """
+def pd_gains(omega, zeta):
+    tau = 1.0 / omega
+    return np.array([1 / tau**2, 2 * zeta * tau])
+"""
+
+
+def test_a_change_in_two_lines_names_neither(tmp_path):
+    """Both divisions turned round is right as well, and line 1 alone is not."""
+    says = says_of(tmp_path, 5, "5.2", "pd_gains", POLES).message
+    assert "`return np.array([1 / tau**2, 2 * zeta * tau])`, makes all" in says
+    assert "`tau = 1.0 / omega`" not in says

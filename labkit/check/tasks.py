@@ -19,7 +19,7 @@ from labkit.judge.cases import in_cases
 from labkit.judge.guard import attempt, noting, quiet
 from labkit.judge.judge import judge, unjudged
 from labkit.judge.mistake import ADD_UP, Verdict
-from labkit.judge.repair import changes_of, repaired
+from labkit.judge.repair import changes_of, mends, repaired
 from labkit.judge.replies_read import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
 from labkit.judge.row import inside, row_of
@@ -32,6 +32,11 @@ from labkit.lesson.untrusted_files import SCRIPT
 from labkit.sandbox.messages import library_of, robots_of
 from labkit.sandbox.sandbox import Sandbox, Session, deadline_of
 
+# Changes of which the one back is a change as well, so that a quoted line is tried.
+CHANGED_BACK = {
+    f"slip-{kind}" for kind in ("name", "index", "sign", "negated", "order")
+}
+QUOTED = re.compile(r" The wrong line is line (\d+)(?:: `[^`]*`)?\.")
 FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
 
 
@@ -188,6 +193,8 @@ class _Check:
                 verdict = replace(verdict, message=f"{verdict.message} {says}")
         if (verdict.wrong_calls or verdict.by_output) and not self.deadline.over:
             verdict = self._with_experiments(task, verdict, added)
+        elif verdict.mistake in CHANGED_BACK and not self.deadline.over:
+            verdict = self._with_its_line_tried(task, verdict, added)
         return replace(result, verdict=verdict)
 
     def _with_experiments(self, task: Task, verdict: Verdict, added: str) -> Verdict:
@@ -213,6 +220,23 @@ class _Check:
         if line and ADD_UP in verdict.message:  # one change in place of two mistakes
             return replace(verdict, mistake="one-line", message=line)
         return replace(verdict, message=f"{verdict.message} {line or says}".strip())
+
+    def _with_its_line_tried(self, task: Task, verdict: Verdict, added: str) -> Verdict:
+        """Return a verdict without the line that it quotes if no change there mends."""
+        quoted = QUOTED.search(verdict.message)
+        asked = next(a for a in self.asked[task.id] if a.function == verdict.function)
+        judged = {name for one in self.day.tasks for name in one.functions}
+        changes = changes_of(self.source, asked.function, judged) if quoted else None
+        if quoted is None or changes is None:
+            return verdict
+        with (
+            quiet(),
+            contextlib.closing(self._session(asked, added + changes.code)) as session,
+        ):
+            tried = mends(asked, changes, session, int(quoted[1]))
+            if tried or not session.alive:
+                return verdict
+        return replace(verdict, message=verdict.message.replace(quoted[0], ""))
 
     def _where_right(self, asked: Asked, verdict: Verdict, session: Session) -> str:
         """Return in which cases, or for which arguments, a function is right; or ""."""

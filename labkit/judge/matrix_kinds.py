@@ -180,8 +180,8 @@ class Jacobian(Matrix):
         if len(bad) == 1:
             says = f"Every column is correct except the column of joint {bad[0] + 1}."
         elif bad[0] > 0 and len(bad) == self.shape[1] - bad[0]:
-            says = f"The columns are correct up to joint {bad[0]}. Later columns are "
-            says += "wrong."
+            says = f"The columns are correct up to joint {bad[0]}, but not all later"
+            says += " columns."
         else:
             says = ""
         if half:

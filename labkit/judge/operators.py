@@ -19,7 +19,8 @@ Mutation = tuple[str, ast.expr]  # what kind of change it is, and the new expres
 OF_OPERATION = {
     ast.Add: "sign: A - B | B - A; left-out: A | B; operation: A * B",
     ast.Sub: "sign: A + B; order: B - A; left-out: A | -B | B; sign-lost: np.abs(X)",
-    ast.Mult: "operation: A / B | A @ B | A + B | A ** B; left-out: A | B; negated: -X",
+    ast.Mult: "operation: A / B | B / A | A @ B | A + B | A ** B; left-out: A | B; "
+    "negated: -X",
     ast.Div: "operation: A * B; left-out: A; order: B / A",
     ast.MatMult: "operation: A * B; order: B @ A; left-out: A | B; negated: -X",
     ast.Pow: "left-out: A; operation: A * B; factor: 2.0 * X | 0.5 * X",
@@ -413,6 +414,9 @@ def _of_subscript(node: ast.Subscript) -> Iterator[Mutation]:
         yield "index", ast.Subscript(node.value, where, ast.Load())
     if len(some) == 2:
         where = ast.Tuple(some[::-1], ast.Load())
+        yield "index", ast.Subscript(node.value, where, ast.Load())
+    elif isinstance(some[0], ast.Constant | ast.Name):  # R[:, 2] for R[2]
+        where = ast.Tuple([ast.Slice(), some[0]], ast.Load())
         yield "index", ast.Subscript(node.value, where, ast.Load())
 
 

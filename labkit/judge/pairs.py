@@ -239,7 +239,7 @@ class _Pairs:
                 break
             self.effort.spend(self.m.usual)
             if self.m.holds(code):
-                return _Two(first, second)
+                return self._of_these_arguments(first) or _Two(first, second)
         return None
 
     def _that_combine(self) -> Iterator[tuple[Mistake, Mistake, Code]]:
@@ -253,7 +253,7 @@ class _Pairs:
         asked = self.m.known.setdefault("in turn", set())
         for i, first in enumerate(self.mistakes):
             one: Any = first.redo
-            given = getattr(one.function, "given", None) or self._of_arguments.get(i)
+            given = _given(first) or self._of_arguments.get(i)
             for k, second in enumerate(self.mistakes):
                 other: Any = second.redo
                 if first.slug == second.slug or (i, k) in asked:
@@ -264,6 +264,20 @@ class _Pairs:
                 elif i < k and first_look and _options(one.function, other.function):
                     both = partial(one.function, **other.function.keywords)
                     yield first, second, both
+
+    def _of_these_arguments(self, first: Mistake) -> _Two | None:
+        """Return a mistake, and another change of the arguments as they were given.
+
+        The second of a pair may be about arguments that the first has changed: the last
+        joint of a reversed chain is the first one.
+        """
+        again: Any = first.redo
+        for one in self.mistakes if not _given(first) else ():
+            if one.slug != first.slug and (given := _given(one)):
+                self.effort.spend(self.m.usual)
+                if self.m.holds(partial(after, again.function, given)):
+                    return _Two(one, first)
+        return None
 
     @cached_property
     def _of_arguments(self) -> dict[int, Code]:
@@ -367,6 +381,12 @@ class _Pairs:
 
     def _fits(self, answer: Parts) -> bool:
         return self.m.main.difference.fits(self.i, answer, digits=True)
+
+
+def _given(one: Mistake) -> Code | None:
+    """Return the change of the arguments that a mistake is, if it says so."""
+    redo: Any = one.redo
+    return getattr(redo.function, "given", None)
 
 
 def _finished(change: Mistake, redo: Any, *args: Any) -> Any:

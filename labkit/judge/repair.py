@@ -46,7 +46,7 @@ LINES = 2  # that are named; of more than these it says little
 PARTS = {
     "sign": "the signs", "negated": "the signs", "order": "the order of the operands",
     "operation": "the operators", "name": "which variable is used",
-    "index": "the indices", "number": "the numbers", "bracket": "the brackets",
+    "index": "the indices", "bracket": "the brackets",
     "transpose": "the transposes", "inverse": "the inverses",
     "exchanged": "the order of the variables", "function": "which function is called",
     "condition": "the condition", "entries": "the order of the entries",
@@ -290,6 +290,25 @@ def repaired(
     return _told(mutants, source, len(calls) + len(more))
 
 
+def mends(asked: Asked, changes: Changes, asker: Asker, line: int) -> bool:
+    """Return whether some change in one line alone makes all answers right.
+
+    Args:
+        asked: what the function was asked, with the replies.
+        changes: of the function.
+        asker: has the file with the code of the changes.
+        line: its number in the student's file.
+    """
+    known = [*asked.main, *asked.fresh]
+    wrong = [one for one in known if verdict(asked.ask, one) not in (RIGHT, NONE)]
+    calls = [one.question for one in known]
+    trial = _Trial(asked.ask, changes, asker, asker.used()[0])
+    every = enumerate(changes.mutants, 1)
+    there = [k for k, one in every if {span[0] for span in one.spans} == {line}]
+    holding = trial.that_hold(there, [one.question for one in wrong[:1]])
+    return any(trial.that_hold([k], calls) for k in holding)
+
+
 class _Trial(NamedTuple):
     """Changes that are tried, within a limit of the processor's time."""
 
@@ -364,6 +383,7 @@ def _is_right(row: Ask, question: Question, reply: Reply) -> bool:
 
 def _told(mutants: Sequence[Mutant], source: str, calls: int) -> str:
     """Return where the changes are that make all answers right; "" if anywhere."""
+    mutants = [mutant for mutant in mutants if _is_in_one_line(mutant)]
     near = [mutant for mutant in mutants if mutant.rank < FAR]
     found = near or mutants
     found = sorted(found, key=lambda mutant: mutant.rank)
@@ -376,6 +396,11 @@ def _told(mutants: Sequence[Mutant], source: str, calls: int) -> str:
     kinds = {mutant.kind for mutant in near}
     what = PARTS.get(kinds.pop(), "") if len(kinds) == 1 else ""
     return f"{says} Check {what} there." if what else says
+
+
+def _is_in_one_line(mutant: Mutant) -> bool:
+    """Return whether all places of a change begin in the same line."""
+    return len({span[0] for span in mutant.spans}) == 1
 
 
 def _line(number: int, text: str) -> str:

@@ -117,8 +117,8 @@ class Pose(Kind):
 def rotation_wrong(S: Array, T: Array) -> Finding:
     """Return what is wrong with rotations, (n, 3, 3)."""
     if (off := _skew(S)) > RIGID:
-        det = np.linalg.det(S)
-        worst = f"{np.round(det[np.argmax(np.abs(det - 1.0))], 6):z.3g}"
+        far = np.abs(S @ S.mT - np.eye(3)).max(axis=(1, 2))
+        worst = f"{np.round(np.linalg.det(S[np.argmax(far)]), 6):z.3g}"
         size = "" if worst == "1" else f"; det R is {worst}, not 1"
         return Finding(
             "not-orthonormal",

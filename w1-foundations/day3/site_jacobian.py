@@ -5,7 +5,7 @@ import numpy as np
 from labkit.judge import Jacobian, Row
 
 # On these questions one thing with two names: the numbers are the same.
-row = Row(Jacobian(), alike=[{"omega-changed", "halves-read-as-v-omega"}])
+row = Row(Jacobian())
 
 
 @row.inputs
@@ -21,17 +21,15 @@ def _(rng):
 def _(J_space, p):
     """space-for-site: your code returns J_space, whose v is the velocity of the
       body-fixed point at the world origin. Use the velocity of the point p instead
-    halves-read-as-v-omega: your code reads the upper rows of J_space as v and the lower
-      rows as omega. The upper rows are omega, and the lower rows are v
-    omega-changed: your code adds v x p to omega. Use omega unchanged, because all
-      points of a body have the same omega
+    omega-changed: your code adds v x p to the upper rows, as if these were v. The upper
+      rows are omega, which is the same for all points of a body, so change only the
+      lower rows
     """
     omega = J_space[:3]
     v = J_space[3:]
     v_p = np.cross(v, p, axis=0)
     halves = {
         "space-for-site": (omega, v),
-        "halves-read-as-v-omega": (omega + v_p, v),
         "omega-changed": (omega + v_p, v),
     }
     return {slug: np.vstack(both) for slug, both in halves.items()}

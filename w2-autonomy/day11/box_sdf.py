@@ -11,7 +11,8 @@ row = Row(Scalar(unit="m"))
 def _(rng):
     one = np.ones(3)
     worked = [((2.0, 0, 0), one), ((0.0, 0, 0), one), ((2.0, 2, 0), one),
-              ((0.5, 0.2, 0), one)]  # fmt: skip
+              ((0.5, 0.2, 0), one), ((3.0, 0.5, 0), one),
+              ((0.5, -2.5, 1.5), one)]  # fmt: skip
     drawn = []
     # Beyond how many faces: a face, an edge, a corner, none.
     for beyond in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 1, 1), (1, 0, 1),

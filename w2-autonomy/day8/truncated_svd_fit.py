@@ -66,8 +66,8 @@ def not_the_smallest(case: Case) -> Finding | None:
         if left > 1.01 * least + 1e-9 * np.linalg.norm(tau) or ratio < 1 - 1e-9:
             return None
         longest = max(longest, ratio)
-    says = "The residual of your parameters is no larger than that of the correct "
-    says += f"ones, but their norm is: it is up to {longest:.3g} times as large. A "
+    says = "The residual of your parameters is at most 1 % larger than that of the "
+    says += f"correct ones, but their norm is up to {longest:.3g} times as large. A "
     says += "combination that the data do not determine should be 0 in your result."
     return Finding("not-the-smallest", says)
 
