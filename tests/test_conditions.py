@@ -135,18 +135,21 @@ def that_hold(row, holds, says, k):
 
 
 def counterexamples(row, function, says, holds, status, k):
-    """Return how many of 100 fresh inputs contradict a condition."""
+    """Return how many of 100 fresh inputs contradict a condition.
+
+    What was wrong in every test is contradicted only where no other input is wrong.
+    """
     if status == "only":
         calls = (c for c in fresh(row) if not holds(c))
         status = RIGHT
     else:
         calls = that_hold(row, holds, says, k)
-    against = 0
     calls = (call for call in calls if definite(row, call))
-    for call in itertools.islice(calls, FRESH):
+    against, tried = 0, list(itertools.islice(calls, FRESH))
+    for call in tried:
         one = Exchange(Question("", "", call), reply(function, call))
         against += verdict(row.ask, one) not in (status, CLOSE, NONE)
-    return against
+    return against if status == RIGHT or against == len(tried) else 0
 
 
 def definite(row, call):
