@@ -34,7 +34,7 @@ def told(task, name, student, body):
             "h = np.tanh(x @ W1) + b1\nh = np.tanh(h @ W2) + b2\nreturn h @ W3 + b3",
             "slip-bracket",
             "a solution whose code for the outputs of the first layer and for the "
-            "outputs of the second layer opens or closes a bracket in the wrong place.",
+            "outputs of the second layer contains a mistake.",
         ),
         (
             "15.5",

@@ -215,12 +215,13 @@ class Kind:
         Where that is so of some wrong answers alone, it is told how far off the others
         are.
         """
-        size = largest(S, self.scale) / max(1.0, largest(T, self.scale))
-        if size < DIVERGES:
+        usual = max(1.0, largest(T, self.scale))
+        sizes = np.array([largest(s[None], self.scale) for s in S])
+        far = sizes >= DIVERGES * usual
+        if not far.any():
             return ""
-        times = f"1e{np.floor(np.log10(size)):.0f}"
+        times = f"1e{np.floor(np.log10(sizes[far].min() / usual)):.0f}"
         off = (gap(S, T) / self.scale).reshape(len(T), -1).max(axis=1)
-        far = off >= DIVERGES * max(1.0, largest(T, self.scale))
         says = f"The result is over {times} times as large as expected"
         if not np.any((off > RIGHT) & ~far):
             return f"{says}."

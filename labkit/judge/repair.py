@@ -282,6 +282,8 @@ def repaired(
         return ""
     fresh = islice(drawn(asked.ask, [one.args for one in calls]), FRESH)
     more = [replace(calls[0], args=call) for call in fresh]
+    if not asked.ask.accept:
+        more += [one.question for held in asked.held_out for one in held]
     holding = trial.that_hold(holding, more)
     but = ANYWHERE if named else set()
     if all(_is_a_multiple(asked.ask, one) for one in wrong[:FEW]):

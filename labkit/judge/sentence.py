@@ -225,9 +225,14 @@ def told(m: Any, mutant: Mutant) -> str:
     does = f"{what(mutant, given=given)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
         return f"your code {does}"
-    if mutant.kind in OF_A_FORM:
+    if mutant.kind in OF_A_FORM or _swaps_arguments(mutant):
         does = "contains a mistake"
     return f"your code {for_steps(steps)} {does.removesuffix(EVERYWHERE)}"
+
+
+def _swaps_arguments(mutant: Mutant) -> bool:
+    """Return whether a change swaps arguments of a function that is called."""
+    return mutant.kind == "order" and isinstance(mutant.edits[0][0].node, ast.Call)
 
 
 def for_steps(glosses: Sequence[str]) -> str:

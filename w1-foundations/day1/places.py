@@ -128,9 +128,8 @@ def _other_links(model, name: str) -> Iterator[tuple[Finding, Array]]:
         L @ L,
     )
     for mistake in link_T.row.ask.named:
-        says = (
-            f"Only the transform of {name} is wrong. In this transform, {mistake.says}"
-        )
+        says = f"A mistake in the transform of {name} alone would explain your result. "
+        says += f"In this transform, {mistake.says}"
         yield Finding(mistake.slug, says), mistake.redo(pos, quat)
 
 
@@ -149,9 +148,8 @@ def _other_joints(model, q: Array, joint: str) -> Iterator[tuple[Finding, Array]
             yield Finding("joint-fed-another", says), turn(model, q, other)
     angles = q[:, model.joint(joint).qposadr[0]]
     for mistake in joint_T.row.ask.named:
-        says = (
-            f"Only the transform of {joint} is wrong. In this transform, {mistake.says}"
-        )
+        says = f"A mistake in the transform of {joint} alone would explain your result."
+        says += f" In this transform, {mistake.says}"
         yield Finding(mistake.slug, says), mistake.redo(angles)
 
 

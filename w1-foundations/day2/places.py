@@ -122,8 +122,8 @@ def _exponential(S: Array, q: Array, k: int) -> Factor:
     def unnamed(X: Array) -> Finding | None:
         if found := mistake_of("exp_screw", NOT_OF_AN_ARM, X, S[:, k], q[:, k]):
             says = inside("in this exponential, ", found.message)
-            says = f"Only the exponential of {name} is wrong. {capitalised(says)}"
-            return Finding(found.slug, says)
+            where = f"A mistake in the exponential of {name} alone would explain your "
+            return Finding(found.slug, f"{where}result. {capitalised(says)}")
         omega = S[:, k, :3]
         vee = X[:, [2, 0, 1], [1, 2, 0]] - X[:, [1, 2, 0], [2, 0, 1]]
         sine = 0.5 * np.sum(omega * vee, axis=1)
@@ -149,7 +149,8 @@ def _row(table: Array, theta: Array, k: int) -> Factor:
 
     def unnamed(X: Array) -> Finding | None:
         if found := mistake_of("dh_link", (), X, *columns, theta[:, k]):
-            says = f"Only {name} of the table is wrong. In this row, {found.message}"
+            says = f"A mistake in {name} of the table alone would explain your result. "
+            says += f"In this row, {found.message}"
             return Finding(found.slug, says)
         return None
 

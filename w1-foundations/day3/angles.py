@@ -110,9 +110,10 @@ def _everywhere(
         return None
     return Finding(
         "large-angles",
-        f"Your result is wrong only for angles of {np.degrees(least):.0f} degrees or "
-        f"more, by up to {difference(S, T).max():.3g} rad. Look at the part of your "
-        f"function for angles near pi.",
+        "In the tests, your result is wrong only for angles of "
+        f"{np.degrees(least):.0f} degrees or more, by up to "
+        f"{difference(S, T).max():.3g} rad. Look at the part of your function for "
+        "angles near pi.",
     )
 
 

@@ -189,9 +189,9 @@ def _as_the_docstring(T_goal, q_start, limits, after) -> Finding | None:
     )
     return Finding(
         "not-the-best",
-        f"{says} (in rad and m). Does your code return the q with the smallest error? "
-        "If your code changes q in place, keep a copy of the best q. Do the steps and "
-        "the damping match the docstring?",
+        f"{says} (in rad and m). Do the steps and the damping match the docstring? "
+        "Does your code return the q with the smallest error? If your code changes q "
+        "in place, keep a copy of the best q.",
     )
 
 

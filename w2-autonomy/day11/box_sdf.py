@@ -85,9 +85,8 @@ def _(p, half_extents):
       negative
     inside-by-the-norm: inside the box, your code returns minus the norm of the three
       distances to the faces. Return minus the smallest of these distances instead
-    farthest-face-inside: inside the box, your code uses the distance to the farthest
-      face. Use the largest entry of `abs(p) - half_extents`, which belongs to the
-      nearest face
+    farthest-face-inside: inside the box, your code uses the smallest entry of `abs(p) -
+      half_extents`. Use the largest entry instead, which belongs to the nearest face
     farthest-face-inside 2: your code adds the smallest entry of `abs(p) - half_extents`
       wherever this entry is negative. Add the largest entry instead, which belongs to
       the nearest face, and only inside the box

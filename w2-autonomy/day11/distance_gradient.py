@@ -97,8 +97,8 @@ def _(J_space, p, o, link):
       joints 1 to `link`, because all of them move the link
     columns-before-dropped: your code uses the joints distal to the link. Use joints 1
       to `link` instead
-    rotation-forgotten: your gradient omits omega x p. Add this term, because the
-      velocity of p is v + omega x p
+    rotation-forgotten: your gradient does not depend on omega. Add the term omega x p,
+      because the velocity of p is v + omega x p
     rotation-only: your gradient omits v. Add this term, because the velocity of p is v
       + omega x p
     cross-the-other-way: your gradient contains omega x p with the wrong sign. Use omega

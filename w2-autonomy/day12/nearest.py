@@ -57,9 +57,11 @@ row.cases(
     trees_whose_nearest_node_is_another=lambda tree, q: found(tree, q) == "other",
 )
 row.cases(
-    nodes_at_q_itself=lambda tree, q: far(tree, q) == 0,
-    nearest_nodes_within_a_distance_of_1=lambda tree, q: 0 < far(tree, q) <= 1,
-    nearest_nodes_farther_than_1=lambda tree, q: far(tree, q) > 1,
+    trees_with_one_node_at_q=lambda tree, q: np.sum((tree == q).all(axis=1)) == 1,
+    trees_with_a_nearest_node_within_a_distance_of_1=(
+        lambda tree, q: 0 < far(tree, q) <= 1
+    ),
+    trees_with_a_nearest_node_farther_than_1=lambda tree, q: far(tree, q) > 1,
 )
 row.cases(
     points_with_two_coordinates=lambda tree, q: len(q) == 2,

@@ -71,7 +71,7 @@ row.cases({
     "edges that touch a disc": edges("touches"),
     "free edges near a disc": edges("near"),
     "free edges far from every disc": edges("far"),
-    "edges of length 0": edges("point"),
+    "edges of length 0 that touch no disc": edges("point"),
     "worlds without a disc": edges("no disc"),
 })  # fmt: skip
 row.cases({

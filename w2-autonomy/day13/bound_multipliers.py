@@ -21,9 +21,8 @@ def _(rng):
 def _(H, f, lo, hi, x):
     """sign: your code negates the multipliers. Return the entries of the gradient,
       because the minimum cost rises if a bound moves in the direction of the gradient
-    absolute: your code takes the absolute values of the multipliers. Keep the signs,
-      because the minimum cost falls if an upper bound rises, so the multiplier of that
-      bound is negative
+    absolute: your multipliers of the upper bounds are positive. They should be
+      negative, because the minimum cost falls if an upper bound rises
     upper-only: your code returns multipliers only for the upper bounds. Also return
       multipliers for the lower bounds that hold an entry
     lower-only: your code returns multipliers only for the lower bounds. Also return
