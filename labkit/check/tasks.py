@@ -19,7 +19,7 @@ from labkit.judge.cases import in_cases
 from labkit.judge.guard import attempt, noting, quiet
 from labkit.judge.judge import judge, unjudged
 from labkit.judge.mistake import ADD_UP, Verdict
-from labkit.judge.repair import changes_of, mends, repaired
+from labkit.judge.repair import Changes, changes_of, mends, repaired
 from labkit.judge.replies_read import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
 from labkit.judge.row import inside, row_of
@@ -199,11 +199,9 @@ class _Check:
 
     def _with_experiments(self, task: Task, verdict: Verdict, added: str) -> Verdict:
         """Return a verdict with the line that is wrong, or where the rest is right."""
-        all_asked = self.asked[task.id]
-        asked = next(one for one in all_asked if one.function == verdict.function)
-        judged = {name for one in self.day.tasks for name in one.functions}
-        tells = verdict.mistake != "one-factor-off"  # any of its factors mends that
-        changes = changes_of(self.source, asked.function, judged) if tells else None
+        asked, changes = self._asked_and_changes(task, verdict)
+        if verdict.mistake == "one-factor-off":
+            changes = None  # any of its factors mends that
         line = says = ""
         with quiet():
             below = added + (changes.code if changes else "")
@@ -221,12 +219,19 @@ class _Check:
             return replace(verdict, mistake="one-line", message=line)
         return replace(verdict, message=f"{verdict.message} {line or says}".strip())
 
+    def _asked_and_changes(
+        self, task: Task, verdict: Verdict
+    ) -> tuple[Asked, Changes | None]:
+        """Return what a wrong function was asked, and the changes of its text."""
+        all_asked = self.asked[task.id]
+        asked = next(one for one in all_asked if one.function == verdict.function)
+        judged = {name for one in self.day.tasks for name in one.functions}
+        return asked, changes_of(self.source, asked.function, judged)
+
     def _with_its_line_tried(self, task: Task, verdict: Verdict, added: str) -> Verdict:
         """Return a verdict without the line that it quotes if no change there mends."""
         quoted = QUOTED.search(verdict.message)
-        asked = next(a for a in self.asked[task.id] if a.function == verdict.function)
-        judged = {name for one in self.day.tasks for name in one.functions}
-        changes = changes_of(self.source, asked.function, judged) if quoted else None
+        asked, changes = self._asked_and_changes(task, verdict)
         if quoted is None or changes is None:
             return verdict
         with (

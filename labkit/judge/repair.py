@@ -293,7 +293,7 @@ def repaired(
 
 
 def mends(asked: Asked, changes: Changes, asker: Asker, line: int) -> bool:
-    """Return whether some change in one line alone makes all answers right.
+    """Return whether a change in one line alone makes all answers right, or may.
 
     Args:
         asked: what the function was asked, with the replies.
@@ -308,7 +308,7 @@ def mends(asked: Asked, changes: Changes, asker: Asker, line: int) -> bool:
     every = enumerate(changes.mutants, 1)
     there = [k for k, one in every if {span[0] for span in one.spans} == {line}]
     holding = trial.that_hold(there, [one.question for one in wrong[:1]])
-    return any(trial.that_hold([k], calls) for k in holding)
+    return any(trial.that_hold([k], calls) for k in holding) or trial.over(MORE)
 
 
 class _Trial(NamedTuple):

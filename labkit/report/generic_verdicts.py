@@ -14,6 +14,7 @@ UNNAMED = {
     "not-numbers": "no numbers",
     "nothing-returned": "nothing is returned",
     "off": "wrong numbers, by no mistake that the kit knows",
+    "one-line": "one change in a line makes it right",
     "part-off": "a part of it is off",
     "parts": "another number of results",
     "raises": "it stopped with an error",
