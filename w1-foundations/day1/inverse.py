@@ -50,8 +50,8 @@ def _(T):
     t-only-negated: your rotation is correct, but your translation is -t. The
       translation of the inverse is expressed in the rotated frame, so rotate -t into
       that frame
-    t-turned-forwards: your rotation is correct, but your translation is -R t. Multiply
-      -t by the inverse of R instead
+    t-turned-forwards: your rotation is correct, but your code rotates the translation
+      by R. Rotate it by the inverse of R instead, as in -R^-1 t
     R-kept: your translation is correct, but your rotation is R instead of the inverse
       of R
     R-kept-t-negated: your rotation is R, and your translation is only -t. Use the

@@ -87,6 +87,11 @@ def _(rng):
                 limits = rng.numbers(4, 12, k)
                 limits = np.full(k, limits[0]) if rng.integers(2) else limits
                 yield a, b, c, limits, float(rng.numbers(0.1, 1.3))
+    for share in (0.9, 1.1):  # of its limit, with which a joint holds still
+        b, c = rng.numbers(-3, 3, 2, 3)
+        limits, sd = rng.numbers(4, 12, 3), float(rng.numbers(0.3, 2))
+        c[0] = share * limits[0] - b[0] * sd**2
+        yield np.array([0.0, *rng.numbers(0.1, 3, 2)]), b, c, limits, sd
     yield (
         np.array([0.0, *rng.numbers(0.1, 3, 2)]),
         0 * limits,

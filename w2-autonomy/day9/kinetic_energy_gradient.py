@@ -68,6 +68,10 @@ for slug, says, other in (
                       "contributions of links i to 7 instead, because joint i rotates "
                       "these links",
      {"felt": lambda i: slice(0, i + 1)}),
+    ("links-before", "your code sums the contributions of links 1 to i - 1. Sum the "
+                     "contributions of links i to 7 instead, because joint i rotates "
+                     "these links",
+     {"felt": lambda i: slice(0, i)}),
     ("all-links",
      "your code sums the contributions of all links. Sum only the contributions of "
      "links i to 7, because joint i does not move links 1 to i - 1",
