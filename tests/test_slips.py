@@ -16,6 +16,7 @@ from labkit.base.exchange import Reply
 from labkit.judge import effort, limits
 from labkit.judge.ask import asked_of
 from labkit.judge.judge import judge
+from labkit.judge.mistake import AS_A_SOLUTION
 from labkit.judge.mutant import Body
 from labkit.judge.row import row_of
 from labkit.judge.sentence import has_its_kind, of_a_step, what
@@ -236,9 +237,9 @@ def test_a_slip_is_told_by_its_kind_and_its_step():
         return T
 
     says = told(2, "2.4", exp_screw=exp_screw)
-    assert says.startswith("Your code for the integrated rotation reverses one sign.")
+    assert says.startswith(f"{AS_A_SOLUTION} whose code for the integrated rotation ")
+    assert "reverses one sign." in says
     assert "`" not in says  # `(theta + s) * K @ K` is not in the file
-    assert "gives the same output" in says
 
 
 def test_an_answer_that_is_infinite_is_not_told_how_far_it_is_off():
@@ -262,9 +263,8 @@ def test_one_slip_that_explains_all_is_told_before_two():
         return np.append(a[:3], 2 * at_0 - a[3:])
 
     says = told(6, "6.2", bias_acceleration=bias_acceleration)
-    assert says.startswith(
-        "Your code for the acceleration of the site reverses one sign."
-    )
+    assert says.startswith(f"{AS_A_SOLUTION} whose code for the acceleration of the ")
+    assert "site reverses one sign." in says
 
 
 def test_a_slip_that_the_fresh_questions_do_not_show_is_not_told():
@@ -423,7 +423,7 @@ def mse(pred, target):
     [
         (
             "2 * (target - (second @ W3 + b3)) / target.size",
-            "Your code for the gradient with respect to the output reverses one sign.",
+            "whose code for the gradient with respect to the output reverses one sign.",
         ),
         ("mse(target, second @ W3 + b3)[1]", "puts two arguments in the wrong order"),
         ("(second @ W3 + b3 - target) / target.size", "omits a factor of two, or"),

@@ -117,10 +117,10 @@ def _sentences(m: Any, mutant: Mutant) -> str:
         verb = "expression is" if len(texts) == 1 else "expressions are"
         does = what(mutant, given=_arguments(m, mutant)).removesuffix(ONCE)
         return f"Your code {does}. The wrong {verb} {listed(texts)}."
-    if tells(mutant) and _is_like(m, mutant):
+    if not _own_function(m, mutant) and tells(mutant):
         return f"{capitalised(told(m, mutant))}."
-    # Another algorithm may have no such sign, bracket or number, although its output is
-    # the same.
+    # Without a place in the student's own text it may have no such sign or step,
+    # although its output is the same.
     says = told(m, mutant).removeprefix("your code ")
     which = "whose code" if says.startswith("for ") else "that"
     return f"{AS_A_SOLUTION} {which} {says}."
