@@ -148,7 +148,7 @@ def test_two_mistakes_at_once_are_both_told():
         return np.array(found)
 
     says = told(4, "4.2", link_inertias=link_inertias)
-    assert says.startswith("Two mistakes together explain your result. First, ")
+    assert says.startswith("Two mistakes together would explain your result. First, ")
 
 
 def test_the_call_shown_has_a_wrong_entry():
@@ -212,8 +212,8 @@ def test_two_mistakes_in_answers_of_several_sizes_are_both_told():
 
     says = told(9, "9.5", kalman_update=kalman_update)
     assert says.startswith(
-        "Two mistakes together explain your result. First, your code uses the wrong "
-        "sign for the innovation"
+        "Two mistakes together would explain your result. First, your code uses the "
+        "wrong sign for the innovation"
     )
 
 

@@ -223,3 +223,47 @@ def test_a_sign_without_a_place_adds_nothing_to_what_the_row_says(student):
     says = told_of_a_file(3, "3.3", "log_rotation", student, OVER_PI)
     assert "Your angle is more than pi for " in says
     assert "reverses one sign" not in says
+
+
+TWICE = """
+def Rz(theta):
+    c, s = np.cos(2 * theta), np.sin(2 * theta)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+"""
+OF_A_QUATERNION = """
+def Rz(theta):
+    w, z = np.cos(theta), np.sin(theta)
+    R = np.eye(3)
+    R[0, 0] = R[1, 1] = w * w - z * z
+    R[1, 0] = 2 * w * z
+    R[0, 1] = -R[1, 0]
+    return R
+"""
+ROWS_FOR_COLUMNS = """
+def make_T(R, t):
+    T = np.eye(4)
+    for i, column in enumerate(zip(*R)):
+        T[i, :3] = column
+    T[:3, 3] = t
+    return T
+"""
+
+
+@pytest.mark.parametrize(
+    ("task", "name", "body", "says"),
+    [
+        ("1.2", "Rz", TWICE, "Your code rotates by twice"),
+        (
+            "1.2",
+            "Rz",
+            OF_A_QUATERNION,
+            "One mistake would explain your result: your code rotates by twice",
+        ),
+        ("1.1", "make_T", ROWS_FOR_COLUMNS, "Your translation is correct, but your"),
+    ],
+)
+def test_what_code_in_another_form_does_is_a_supposition(
+    student, task, name, body, says
+):
+    """Of the result it is none, however that was computed."""
+    assert told_of_a_file(1, task, name, student, body).startswith(says)

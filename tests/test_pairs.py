@@ -210,7 +210,7 @@ def test_of_two_mistakes_only_what_the_function_does_is_told():
         return np.where(np.isnan(heights), 0.0, np.where(below, -1.0, found))
 
     says = told(14, "14.6", reward=reward)
-    assert "Two mistakes together explain your result. First, your code " in says
+    assert "Two mistakes together would explain your result. First, your code " in says
     assert " Second, it returns 0 for a height of NaN" in says
     assert "because the simulation failed" not in says
 
@@ -372,7 +372,7 @@ def test_errors_that_add_up_are_called_so():
         return bias - damping * qd + tau_null - J_site.T @ wrench
 
     says = told(6, "6.7", impedance_torque=impedance_torque)
-    assert "Two mistakes together explain your result. " in says
+    assert "Two mistakes together would explain your result. " in says
     assert says.endswith(f"{ADD_UP}.")
 
 
@@ -383,7 +383,7 @@ def test_factors_that_belong_together_are_called_so():
         return 0.5 * np.array(own)
 
     says = told(9, "9.8", kinetic_energy_gradient=kinetic_energy_gradient)
-    assert "Two mistakes together explain your result. " in says
+    assert "Two mistakes together would explain your result. " in says
     assert says.endswith(f"{pairs.MULTIPLY}.")
 
 
@@ -405,7 +405,7 @@ def test_a_change_of_a_wrong_answer_is_told_as_made_after_it():
         return np.block([[T[:3, :3].T, T[:3, :3] @ T[:3, 3:]], [np.eye(4)[3:]]])
 
     says = told(1, "1.3", inverse=inverse)
-    assert says.startswith("Two mistakes, made one after the other, explain your")
+    assert says.startswith("Two mistakes, made one after the other, would explain your")
 
 
 def test_a_number_that_is_always_0_is_no_array():

@@ -397,7 +397,7 @@ def test_a_factor_of_two_says_which_way_it_goes(new, size, says):
         return SimpleNamespace(kind="factor", edits=edits, body=body)
 
     above, below = mutant(division.left), mutant(division.right)
-    assert what(above, given={"x": "theta"}) == f"uses {size} `theta` in one place"
+    assert what(above, given={"x": "theta"}) == f"uses {size} `theta`"
     assert what(above) == says
     assert what(below) == "omits a factor of two, or has one too many"
 

@@ -119,9 +119,8 @@ def test_a_verb_agrees_with_its_result():
 def test_a_mistake_that_is_a_question_keeps_its_mark():
     says = both_told("does your loop end one sample too early?", "your code adds 1")
     assert says == (
-        "Two mistakes together explain your result. First, does your loop end one "
-        "sample too early? "
-        "Second, your code adds 1."
+        "Two mistakes together would explain your result. First, does your loop end "
+        "one sample too early? Second, your code adds 1."
     )
 
 
@@ -135,7 +134,7 @@ def test_your_code_for_a_step_stays_your_code():
 def test_your_code_is_said_once_of_two_mistakes():
     says = both_told("your code adds 1", "your code returns `x`, because it is 0")
     assert says == (
-        "Two mistakes together explain your result. First, your code adds 1. "
+        "Two mistakes together would explain your result. First, your code adds 1. "
         "Second, it returns `x`, because it is 0."
     )
     rule = both_told("your code adds 1. Add 2", "your code returns 0")

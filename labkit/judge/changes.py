@@ -25,6 +25,8 @@ LIKELY = {"sign", "left-out", "doubled", "halved", "transposed", "inverted",
           "halves-exchanged", "backwards", "exchanged",
           "entries-exchanged"}  # fmt: skip
 OF_UNITS = {"thousandths", "thousands"}  # as an output in another unit has them, too
+# A matrix is symmetric as a rule, and then a student may have used either side.
+ON_ONE_SIDE = "on one side of the diagonal"
 CONSTANTS = (0.0, 1.0, 9.8, 9.80665, 9.81, 1.645, 1.96, 0.5, 2.0, 1e-3, 1e-6)
 
 
@@ -264,8 +266,8 @@ def _far_of_array(x: Array) -> Made:
         )
         yield "identity", "`{0}` were the identity matrix", lambda x: np.eye(len(x))
         yield "inverted", "`{0}` were replaced with its inverse", np.linalg.inv
-        yield "upper", "every entry of `{0}` below the diagonal were 0", np.triu
-        yield "lower", "every entry of `{0}` above the diagonal were 0", np.tril
+        yield "upper", f"every entry of `{{0}}` {ON_ONE_SIDE} were 0", np.triu
+        yield "lower", f"every entry of `{{0}}` {ON_ONE_SIDE} were 0", np.tril
     if len(shape) > 1:
         yield (
             "columns",

@@ -25,7 +25,6 @@ from labkit.lesson.starter import function_lines
 
 MODULES = ("np", "se3", "screws", "math")
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
-ONCE = " in one place"  # of a change whose place is not quoted
 EVERYWHERE = ", in every similar line"  # of a change that is made in several places
 
 # What "your code" does, where the place of a change says no more.
@@ -115,7 +114,7 @@ def _sentences(m: Any, mutant: Mutant) -> str:
         return f"Your code {what(mutant, line)}. {where}"
     if texts := own_expressions(m, mutant):
         verb = "expression is" if len(texts) == 1 else "expressions are"
-        does = what(mutant, given=_arguments(m, mutant)).removesuffix(ONCE)
+        does = what(mutant, given=_arguments(m, mutant))
         return f"Your code {does}. The wrong {verb} {listed(texts)}."
     if not _own_function(m, mutant) and tells(mutant):
         return f"{capitalised(told(m, mutant))}."
@@ -208,6 +207,19 @@ def _is_like(m: Any, mutant: Mutant) -> bool:
     return own is None or is_like(own.own, own.reference)
 
 
+def is_in_another_form(m: Any) -> bool:
+    """Return whether the student's function is written like no right one, if known."""
+    if "another form" not in m.known:
+        rights = m.ask.bodies
+        try:
+            own = definition(m.case.source, rights[0].name) if rights else None
+        except (SyntaxError, ValueError):
+            own = None
+        alike = own is None or any(is_like(own, one.function) for one in rights)
+        m.known["another form"] = not alike
+    return bool(m.known["another form"])
+
+
 def half(m: Any, mutant: Mutant) -> str:
     """Return what is said of one mutant of two; "" where it says too little."""
     return told(m, mutant) if shows(m, mutant) else ""
@@ -220,7 +232,7 @@ def told(m: Any, mutant: Mutant) -> str:
         return f"in line {line.number}{code}, your code {what(mutant, line)}"
     given = _arguments(m, mutant)
     if texts := own_expressions(m, mutant):
-        does = what(mutant, given=given).removesuffix(EVERYWHERE).removesuffix(ONCE)
+        does = what(mutant, given=given).removesuffix(EVERYWHERE)
         return f"in {listed(texts)}, your code {does}"
     does = f"{what(mutant, given=given)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
@@ -295,7 +307,7 @@ def what(
         return place.says
     several = len(mutant.edits) > 1
     if mutant.kind == "factor" and (says := _of_a_factor(new, line, given)):
-        return says + ("" if line else EVERYWHERE if several else ONCE)
+        return says + EVERYWHERE * (several and not line)
     says = _of_an_expression(mutant, place.node, new, line) or SAYS[mutant.kind]
     if mutant.kind == "factor" and not _divides(mutant, place.node):
         match new:

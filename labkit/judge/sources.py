@@ -4,6 +4,7 @@ The author's entries come first, then what is common to a kind of answer, then w
 machine makes: mutants of every right body, one argument changed, the answer changed.
 """
 
+import re
 from collections.abc import Iterator
 from functools import partial
 from itertools import chain, count, islice, permutations
@@ -28,10 +29,11 @@ from labkit.judge.ask import Ask, Case
 from labkit.judge.hypothesis import equals, evidence
 from labkit.judge.kinds import one_factor
 from labkit.judge.matcher import Calls, Code, Matcher
-from labkit.judge.mistake import REDONE, Finding, Mistake, as_sentence
+from labkit.judge.mistake import ALONE, REDONE, Finding, Mistake, as_sentence
 from labkit.judge.mutant import FAR, Mutant
 from labkit.judge.sentence import (
     has_its_kind,
+    is_in_another_form,
     is_in_its_form,
     of_mutants,
     own_line,
@@ -48,6 +50,8 @@ APART = 4  # of them, in places of their own
 KEPT = 8  # functions and calls whose mutants are kept with their answers
 _MADE: dict[Any, tuple[Any, list[Any], Iterator[Any]]] = {}
 SCREEN = 1e3 * MATCHES  # of one call: the largest of all may be as much larger
+# What is said of how it is written, and not of its result.
+OF_THE_CODE = re.compile(r"\byour (code|loop|function)\b", re.IGNORECASE)
 AGREE = 3  # calls with a wrong answer that a mutant of whole numbers has to give
 
 
@@ -116,7 +120,10 @@ def with_evidence(m: Matcher, one: Mistake, exact: bool | None = None) -> Findin
     """Return what is said of a mistake, and how well it explains the answers."""
     exact = m.exact(one.redo) if exact is None else exact
     how = m.with_error(one.does(evidence(exact)))
-    return Finding(one.slug, f"{_sentence(one)} {how}")
+    says = _sentence(one)
+    if OF_THE_CODE.search(says) and is_in_another_form(m):
+        says = f"{ALONE}{as_sentence(one.says)}"
+    return Finding(one.slug, f"{says} {how}")
 
 
 def in_another_order(m: Matcher) -> Finding | None:
