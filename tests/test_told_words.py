@@ -270,6 +270,23 @@ def test_where_some_results_alone_are_larger_the_error_of_the_others_is_told():
     )
 
 
+def test_the_factor_of_several_large_results_is_that_of_the_smallest_one():
+    T = np.array([1.0, 1.0, 1.0])
+    says = Scalar(unit="m").largest_error(np.array([1.0, 3.0e13, 3.0e17]), T)
+    assert says == "The result is over 1e13 times as large as expected."
+
+
+def test_the_distance_and_the_determinant_are_of_the_same_matrix():
+    """One is further from orthonormal, the other's determinant is further from 1."""
+    shear, stretched = np.eye(3), np.diag([1.5, 1.5, 1.5])
+    shear[0, 1] = 4.0
+    S = np.array([stretched, shear])
+    _, says = rotation_wrong(S, np.array([np.eye(3)] * 2))
+    assert "(R R^T differs from the identity matrix by 16.)" in says
+    _, says = rotation_wrong(S[:1], np.array([np.eye(3)]))
+    assert "by 1.2; det R is 3.38, not 1.)" in says
+
+
 @pytest.mark.parametrize(
     ("every", "says"),
     [
