@@ -349,8 +349,31 @@ def test_a_call_is_resized_to_any_size_that_no_call_of_its_case_has():
 def test_another_call_is_carried_with_the_sizes_of_a_case():
     case, others = [(np.zeros(2),)], [(np.full(5, 3.0),)]
     some = list(carried(case, others, [*case, *others]))
-    assert some
-    assert all(np.array_equal(x, [3.0, 3.0]) for (x,) in some)
+    assert {x.shape for (x,) in some} == {(2,)}
+    assert any(np.array_equal(x, [3.0, 3.0]) for (x,) in some)
+
+
+def test_a_vector_takes_entries_of_both_calls_unless_it_is_a_unit_vector():
+    case, others = [(np.array([0.0, 2.0, 2.0]),)], [(np.array([-1.0, -1.0, -1.0]),)]
+    found = {tuple(x) for (x,) in carried(case, others, [*case, *others])}
+    assert (0.0, -1.0, 2.0) in found
+    axes = [(row,) for row in np.eye(3)]
+    found = [x for (x,) in carried(axes[:1], axes[1:], axes)]
+    assert all(np.isclose(np.linalg.norm(x), 1.0) for x in found)
+
+
+def negative_a_not_sorted(a, b, c, limits, sd):
+    """Return the bounds of a path, those of a joint with a < 0 in the wrong order."""
+    moves = a != 0  # the others are left out
+    ends = (np.array([-limits, limits]) - b * sd**2 - c)[:, moves] / a[moves]
+    return np.array([ends[0].max(initial=-np.inf), ends[1].min(initial=np.inf)])
+
+
+def test_a_joint_that_stands_still_is_right_only_if_it_is_beside_any_other():
+    """Its row drew such a joint beside joints with a above 0 alone."""
+    row = rows_of(find_day(12))["path_accel_bounds"]
+    right = told(row, negative_a_not_sorted).partition("ometimes wrong")[0]
+    assert "joints with a = 0 within" not in right
 
 
 def best_key_alone(queries, keys, values):

@@ -51,13 +51,14 @@ OF_AN_ANGLE = (
     RADIANS_TWICE,
     Change(
         "half-angle",
-        "your code rotates by half of `{name}`. Use `{name}` itself, because only a "
-        "quaternion contains half the rotation angle",
+        "your code rotates by half of `{name}`. The correct rotation is by `{name}` "
+        "itself",
         lambda x: x / 2,
     ),
     Change(
         "double-angle",
-        "your code rotates by twice `{name}`. Use `{name}` itself",
+        "your code rotates by twice `{name}`. The correct rotation is by `{name}` "
+        "itself",
         lambda x: 2 * x,
     ),
 )

@@ -3,8 +3,8 @@
 A function that tests one disc alone is right for edges of length 0 until such an edge
 meets discs at which another edge was answered wrongly. Fresh calls seldom have both.
 Here a call takes some arguments from a call of the case and the others from another
-call; or it takes one argument twice, if calls of the case have equal ones; or it is
-another call with the sizes of one of the case.
+call; or some entries of one vector; or it takes one argument twice, if calls of the
+case have equal ones; or it is another call with the sizes of one of the case.
 """
 
 from collections.abc import Iterator, Sequence
@@ -17,8 +17,9 @@ from labkit.judge.resized import Axis, size_of, sizes_by_axis, with_size
 
 TRIES = 600  # calls that are put together, of which some are of the case
 # Of these the share that is resized alone, of the others the share with an argument
-# twice, and of the rest the share that is crossed without new sizes.
-RESIZED, COPIED, CROSSED = 1 / 4, 1 / 3, 1 / 2
+# twice, of the rest the share with a vector of both calls' entries, and of all others
+# the share that is crossed without new sizes.
+RESIZED, COPIED, MINGLED, CROSSED = 1 / 4, 1 / 3, 1 / 4, 1 / 2
 SEED = 6151
 Call = tuple[Any, ...]
 
@@ -49,6 +50,8 @@ def carried(
             call = alike
         elif pairs and rng.random() < COPIED:
             call = _copied(other, *pairs[int(rng.integers(len(pairs)))])
+        elif (places := _vectors(one, alike)) and rng.random() < MINGLED:
+            call = _mingled(one, alike, places[int(rng.integers(len(places)))], rng)
         elif n > 1:
             call = _crossed(one, other if rng.random() < CROSSED else alike, rng)
         else:
@@ -72,6 +75,26 @@ def _crossed(one: Call, other: Call, rng: np.random.Generator) -> Call:
     n = len(one)
     mask = int(rng.integers(1, 2**n - 1))
     return tuple(one[i] if mask >> i & 1 else other[i] for i in range(n))
+
+
+def _vectors(one: Call, other: Call) -> list[int]:
+    """Return which arguments are vectors of one size in both, and no unit vectors."""
+    return [
+        i
+        for i, (x, y) in enumerate(zip(one, other, strict=True))
+        if isinstance(x, np.ndarray)
+        and isinstance(y, np.ndarray)
+        and x.shape == y.shape
+        and x.ndim == 1 < x.size
+        and not all(np.isclose(np.linalg.norm(v), 1.0) for v in (x, y))
+    ]
+
+
+def _mingled(one: Call, other: Call, i: int, rng: np.random.Generator) -> Call:
+    """Return a call with some entries of its i-th argument from another call."""
+    n = len(one[i])
+    kept = rng.permutation(n) < rng.integers(1, n)
+    return (*one[:i], np.where(kept, one[i], other[i]), *one[i + 1 :])
 
 
 def _equal(calls: Sequence[Call]) -> list[tuple[int, int]]:

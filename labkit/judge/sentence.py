@@ -35,7 +35,7 @@ SAYS = {
     "left-out": "omits a part of the formula",
     "operation": "uses a wrong operator",
     "sign-lost": "makes a negative value positive",
-    "name": "uses a wrong variable",
+    "name": "uses a wrong value",
     "index": "uses a wrong index or range",
     "number": "uses a wrong number in the formula",
     "factor": "omits a factor of two, or has one too many",

@@ -112,8 +112,10 @@ for slug, says in HALVES.items():
     half = lambda *four, slug=slug: halves(*four)[slug]  # noqa: E731
     row.wrong(slug, f"in both results, {says}")(both(half))
     same = WHEN_READY if slug == "turned-backwards" else ""
-    row.wrong(slug, f"in the first result, {says}", hidden=same)(both(half, right))
-    row.wrong(slug, f"in the second result, {says}")(both(right, half))
+    # By the product, as two results may be swapped as well.
+    first, second = "T_world_ee @ T_extra", "T_extra @ T_world_ee"
+    row.wrong(slug, f"for `{first}`, {says}", hidden=same)(both(half, right))
+    row.wrong(slug, f"for `{second}`, {says}")(both(right, half))
 
 
 def _other_order(R_a, t_a, R_b, t_b):

@@ -77,11 +77,11 @@ def _(a0, a1, b0, b1):
       otherwise the points can lie outside the segments
     clamped-apart: your code clamps s and t independently. If one parameter is clamped,
       the optimal value of the other changes, so recompute the other parameter
-    s-not-again: if t is clamped, your s is not the optimal value for this t. Recompute
-      s after t is clamped, because the optimal s depends on t
-    s-not-again 2: if s is clamped, your t is not the optimal value for this s.
+    s-not-again: if t is clamped, your s may not be the optimal value for this t.
+      Recompute s after t is clamped, because the optimal s depends on t
+    s-not-again 2: if s is clamped, your t may not be the optimal value for this s.
       Recompute t after s is clamped, because the optimal t depends on s
-    s-not-again 3: your t is not the optimal value for your s. Recompute t after the
+    s-not-again 3: your t may not be the optimal value for your s. Recompute t after the
       last change of s, because the optimal t depends on s
     t-not-cut: your code does not clamp t. Clamp t to [0, 1], because otherwise the
       second point can lie outside its segment

@@ -57,7 +57,7 @@ def _(rng):
 
 @row.wrongs
 def _(link_lengths, link_radii):
-    """to-the-tip-only: your code uses only the last link for the bound. Take the
+    """to-the-tip-only: your code bounds only the points of the last link. Take the
       maximum over all distal links, because a point on an earlier link can be farther
       from the joint
     own-link-only: your code uses only the joint's own link for the bound. Take the

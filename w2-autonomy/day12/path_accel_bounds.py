@@ -76,6 +76,7 @@ def _(rng):
             rng.choice([-1.0, 1.0], k),
             0.0,
             rng.choice([0.0, 1], k),
+            rng.choice([-1.0, 0.0, 1], k),
         ):
             for least in (0.0, -2.0, -7.0):  # of the size of a, as a power of ten
                 a = (

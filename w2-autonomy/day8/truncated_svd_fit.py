@@ -66,9 +66,10 @@ def not_the_smallest(case: Case) -> Finding | None:
         if left > 1.01 * least + 1e-9 * np.linalg.norm(tau) or ratio < 1 - 1e-9:
             return None
         longest = max(longest, ratio)
-    says = "The residual of your parameters is at most 1 % larger than that of the "
-    says += f"correct ones, but their norm is up to {longest:.3g} times as large. A "
-    says += "combination that the data do not determine should be 0 in your result."
+    says = "In all calls that were tried, the residual of your parameters is at most 1 "
+    says += "% larger than that of the correct ones, but their norm is up to "
+    says += f"{longest:.3g} times as large. A combination that the data do not "
+    says += "determine should be 0 in your result."
     return Finding("not-the-smallest", says)
 
 
