@@ -134,33 +134,46 @@ def in_some_calls(m: Matcher) -> Finding | None:
     It is said of these alone: another one may give the same numbers there. Numbers that
     are 0, or all the same, prove no mistake.
     """
-    wrong = m.wrong
-    least = max(SOME, -(-len(wrong) // 2))
-    if m.whole or len(wrong) <= least:
+    least = max(SOME, -(-len(m.wrong) // 2))
+    if m.whole or len(m.wrong) <= least:
         return None
-    few = wrong[np.unique(np.linspace(0, len(wrong) - 1, FEW).astype(int))]
-    most: tuple[int, Mistake] | None = None
+    few = m.wrong[np.unique(np.linspace(0, len(m.wrong) - 1, FEW).astype(int))]
+    most: tuple[int, int, Mistake] | None = None
     for one in of_its_own_first(m):
         fits = m.main.difference.fits
         if sum(fits(i, m.main.answer(one.redo, i)) for i in few.tolist()) < 2:
             continue
-        given = m.main.difference.explained(m.main.answers(one.redo))
-        n = int(np.sum(given[wrong])) if _differ(m.S, wrong[given[wrong]]) else 0
-        # Made every time, it shows nowhere that is right.
-        always = given[m.ask.gaps(m.S, m.T) <= m.ask.near].all()
-        if always and least <= n < len(wrong) and (most is None or n > most[0]):
-            most = n, one
+        n, every = _given_in(m, one, least)
+        if every / 2 <= n < every and (most is None or n > most[0]):
+            most = n, every, one
     if most is None:
         return None
-    n, one = most
-    others = len(wrong) - n
-    rest = "other wrong call" if others == 1 else f"other {others} wrong calls"
+    n, every, one = most
+    rest = "other wrong call" if every - n == 1 else f"other {every - n} wrong calls"
     says = (
-        f"One mistake would explain the result in {n} of the {len(wrong)} wrong calls: "
+        f"One mistake would explain the result in {n} of the {every} wrong calls: "
         f"{as_sentence(one.says)} In the {rest}, the reference solution with this "
         "mistake gives a different result."
     )
     return Finding(f"{one.slug}+other", says)
+
+
+def _given_in(m: Matcher, one: Mistake, least: int) -> tuple[int, int]:
+    """Return how many wrong answers a mistake gives, and how many there are.
+
+    It gives none if the main calls have too few of them, or if it would show in one
+    that is right. A fresh call may refute what gives all the others.
+    """
+    n, every = 0, 0
+    for calls in filter(None, (m.main, m.fresh)):
+        given = calls.difference.explained(calls.answers(one.redo)).astype(bool)
+        off = m.ask.gaps(calls.S, calls.T) > m.ask.near
+        which = np.flatnonzero(given & off)
+        few = calls is m.main and not (len(which) >= least and _differ(m.S, which))
+        if few or not given[~off].all():
+            return 0, int(off.sum()) + every
+        n, every = n + len(which), every + int(off.sum())
+    return n, every
 
 
 def _differ(S: Parts, which: Any) -> bool:
