@@ -39,10 +39,10 @@ def _(theta):
       should rotate the x axis towards the y axis
     sin-and-cos-swapped: the sine and the cosine are swapped in your matrix, so at
       `theta` = 0 the matrix already rotates by 90 degrees
-    minus-missing: neither of your sines has a minus sign, so the matrix is not
+    minus-missing: neither of your sines has a minus sign, so the matrix is in general
+      not orthonormal. Exactly one of the two sines should have a minus sign
+    minus-twice: both of your sines have a minus sign, so the matrix is in general not
       orthonormal. Exactly one of the two sines should have a minus sign
-    minus-twice: both of your sines have a minus sign, so the matrix is not orthonormal.
-      Exactly one of the two sines should have a minus sign
     reflection: a cosine in your matrix is negated instead of a sine, so the matrix is a
       reflection (det R = -1)
     small-angle-formula: if the angle is small, your matrix contains the angle instead

@@ -47,7 +47,8 @@ def elsewhere(model, q, path=PATH):
     flange-not-turned: your position is correct, but your code omits the rotation of
       `attachment` relative to link7
     flange-turned-backwards: your position is correct, but your code rotates
-      `attachment` in the wrong direction. Use the `quat` of `attachment` unchanged
+      `attachment` in the wrong direction. Use the rotation that the `quat` of
+      `attachment` represents
     flange-turned-by-45: your position is correct, but your code rotates `attachment` by
       45 degrees. Use the rotation that the `quat` of `attachment` represents
     flange-not-moved: your rotation is correct, but your code omits the offset of

@@ -24,8 +24,8 @@ row = Row(
         HeldOut(
             "general-inverse",
             "Your result is correct, but your code uses a general matrix inverse. "
-            "Compute the result from R and t alone. What is special about the "
-            "columns of R?",
+            "The inverse of a rotation matrix R does not need a general method. What "
+            "is special about the columns of R?",
             _scaled,
             mistaken=np.linalg.inv,
             status="close",

@@ -14,9 +14,9 @@ from .panda_chain import PATH, fk, link, product, steps, turn
 
 
 def in_order(model, q, path=PATH):
-    """joint-before-link: your code applies each joint's transform before the link's
-      transform. Apply the link's transform first, because the joint rotates the link
-      about the link's own z axis
+    """joint-before-link: your code puts each joint's transform on the left of the
+      link's transform. The link's transform belongs on the left, because the joint
+      rotates the link about the link's own z axis
     chain-reversed: your pose is the product of the transforms in the reverse order. The
       transforms nearest to the base belong on the left
     links-on-the-left: your code puts each link's transform on the left of the product

@@ -48,7 +48,7 @@ row = Row(
     held_out=[
         HeldOut(
             "by-4x4-products",
-            "Your result is correct, but your code multiplies 4x4 matrices. Compute "
+            "Your result is correct, but your code multiplies by a 4x4 matrix. Compute "
             "the result from R and t alone. Which R acts on which t?",
             _odd_bottom_rows,
             mistaken=by_4x4,
