@@ -24,8 +24,8 @@ def _(screws, M):
       frame, with M instead of its inverse. Map the screws from the world frame to the
       end-effector frame
     from-the-right: your code multiplies each screw by the transpose of the correct
-      adjoint Ad, as `screws @ Ad` does. Each screw is a row of the array, so use the
-      transpose of Ad in this product
+      adjoint Ad, as `screws @ Ad` does. Multiply each screw by Ad itself, as
+      `screws @ Ad.T` does
     unchanged: your code returns the screws unchanged, so they are still expressed in
       the world frame. Express them in the end-effector frame
     transposed-for-inverse: your code multiplies each screw by the transpose of Ad(M)

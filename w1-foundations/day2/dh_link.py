@@ -47,7 +47,8 @@ def in_order(order, alpha, a, d, theta):
 @row.wrongs
 def _(alpha, a, d, theta):
     """standard-formula: your code uses the standard convention, Rot_z Trans_z Trans_x
-      Rot_x. Franka's table follows Craig's convention, so rotate about x first
+      Rot_x. Franka's table follows Craig's convention, so the rotation about x and
+      the translation along x should come first
     a-after-theta: your code translates by `a` after the rotation about z. The
       translation by `a` should come before this rotation
     d-along-the-old-z: your code translates by `d` before the rotation about x. The
@@ -70,16 +71,15 @@ def _(alpha, a, d, theta):
 for order in ("zxXZ", "XzxZ", "XzZx"):
     row.wrong(
         "order-of-moves",
-        "your code rotates about z before it rotates about x. The first factor "
-        "should be the rotation about x, as in the docstring",
+        "your code rotates about z before it rotates about x. The rotation about x and "
+        "the translation along x should come before the rotation about z",
     )(partial(in_order, order))
 
 
 @row.wrongs
 def _(alpha, a, d, theta):
-    """both-turns-backwards: your code rotates by -alpha and by -theta. Either both
-      angles are negated, or the minus sign is at the wrong sine in both rotation
-      matrices
+    """both-turns-backwards: your code rotates by -alpha and by -theta. The correct
+      rotations are by alpha and by theta themselves
     radians-taken-for-degrees: your code converts both angles from degrees to radians.
       Use both angles unchanged, because they are already in radians
     alpha-forgotten: your code does not use the argument `alpha`

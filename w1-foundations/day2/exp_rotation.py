@@ -43,14 +43,14 @@ def rodrigues(axis, theta):
 
 @row.wrongs
 def _(axis, theta):
-    """turns-backwards: your code rotates in the wrong direction. Either the sine term
-      has the wrong sign, or rows and columns are exchanged
-    minus-square: the K^2 term of your matrix has the wrong sign, so the matrix is not
-      orthonormal
+    """turns-backwards: your code rotates in the wrong direction. The correct rotation
+      follows the right-hand rule about the axis
+    minus-square: the K^2 term of your matrix has the wrong sign, so the matrix is in
+      general not orthonormal
     square-missing: your code omits the K^2 term. Without this term, the matrix is
       orthonormal only to first order in theta
-    sine-term-missing: your code omits the term sin(theta) K, so the rotations by theta
-      and -theta are equal
+    sine-term-missing: your code omits the term sin(theta) K, so the matrices for
+      theta and -theta are equal
     identity-missing: your matrix is the correct matrix minus the identity matrix. The
       result at theta = 0 should be the identity matrix
     cosine-for-one-minus-cosine: the coefficient of K^2 in your matrix is cos(theta)

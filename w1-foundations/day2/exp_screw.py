@@ -75,7 +75,7 @@ def _(S, theta):
     hinge-at-the-origin-forgotten: your code returns the identity matrix for a screw
       with v = 0. Such a screw represents a rotation about a line through the origin
     turns-backwards: your code computes the motion for -theta, which has the opposite
-      direction. Use theta itself
+      direction. The correct motion is for theta itself
     theta-wrapped: your motion belongs to theta wrapped to [-pi, pi]. Use theta
       unchanged, because the translation along the axis is not periodic
     """
@@ -135,14 +135,15 @@ def _(S, theta):
       translation should be the integral of the rotated v, because v rotates during the
       motion
     travel-on-a-line: your rotation is correct, but your translation is theta v, which
-      is correct only without a rotation. With a rotation, the translation is the
-      integral of the rotated v
+      is in general wrong if omega is not 0. The translation should be the integral of
+      the rotated v from 0 to theta
     travel-is-v: your rotation is correct, but your translation is v for every theta.
       The translation should be 0 at theta = 0
     travel-turned: your rotation is correct, but your translation is the correct
-      translation multiplied by R. Omit this factor
+      translation multiplied by R. The translation should not contain this factor
     travel-over-theta: your rotation is correct, but your translation is the correct
-      translation divided by theta. Omit this division
+      translation divided by theta. For a small theta, the translation should be nearly
+      theta v
     moment-used-as-point: your translation is v - R v, as if v were a point on the axis.
       The vector v is a velocity. The point on the axis nearest to the origin is omega x
       v
@@ -151,7 +152,7 @@ def _(S, theta):
     pitch-without-theta: your code multiplies the translation along the axis by theta
       only if omega is 0. Always multiply this translation by theta
     hinges-only: your code omits the translation along the axis for every screw. This
-      translation is 0 only for a pure rotation
+      translation is 0 for a pure rotation, but not in general
     sign-of-the-point: your rotation is correct, but the part of your translation
       perpendicular to the axis has the wrong sign. The point on the axis nearest to the
       origin is omega x v

@@ -19,7 +19,7 @@ def _(screws, M, q):
     """M-first: your code multiplies by M on the left of the exponentials. For screws
       expressed in the world frame, M belongs on the right
     M-only-added: your code adds only the translation of M. Multiply by M instead,
-      because M also contains a rotation
+      because the exponentials rotate this translation, and M also contains a rotation
     space-screws-in-body-form: your product contains screws expressed in the
       end-effector frame, but M on the right. Use the screws unchanged, because a
       product with M on the right requires screws expressed in the world frame

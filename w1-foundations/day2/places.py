@@ -144,7 +144,8 @@ def _row(table: Array, theta: Array, k: int) -> Factor:
         missing = f"Your product omits {name} of the table"
         yield Finding("row-skipped", missing), np.eye(4)[None]
         for j in set(range(theta.shape[1])) - {k}:
-            says = f"Your code uses the angle of row {j + 1} for {name} of the table"
+            angle = f"of row {j + 1}" if j < theta.shape[1] - 1 else "0"  # the flange
+            says = f"Your code uses the angle {angle} for {name} of the table"
             yield Finding("row-fed-another", says), dh_link(*columns, theta[:, j])
 
     def unnamed(X: Array) -> Finding | None:
@@ -171,11 +172,13 @@ def _one_at_a_time(case: Case) -> Finding | None:
         return None
     if not off:
         where = (
-            "If only one joint moves at a time, your pose is correct. Check how the "
-            "motion of one joint moves the axes of the joints after it."
+            f"If only one joint moves, by {ALONE} or -{ALONE} rad, your pose is "
+            "correct. Does the error occur only if several joints move, or also for "
+            "larger angles of one joint?"
         )
     else:
-        where = "If only one joint moves at a time, your pose is wrong for "
+        where = f"If only one joint moves, by {ALONE} or -{ALONE} rad, your pose is "
+        where += "wrong for "
         where += f"{_these(off)}."
     found = Pose().what_is_wrong(case.S, case.T)
     return Finding(found.slug, f"{found.message} {where}")
