@@ -104,8 +104,8 @@ def _(t, omega, zeta):
       equals 1 up to rounding, for example within 1e-9
     time-from-the-first: your code measures time from `t[0]`. The error should be 1 at t
       = 0, even if the array t does not contain 0
-    first-entry-one: your code always sets the first entry to 1. The error should be 1
-      only at t = 0
+    first-entry-one: your code always sets the first entry to 1. The array t does not
+      always begin at 0, so compute this entry as well
     """
     near = 1.0 if abs(zeta - 1.0) < 0.05 else zeta
     return {

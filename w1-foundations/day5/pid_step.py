@@ -81,10 +81,10 @@ def summed(sums):
 
 @summed
 def _(e, ed, integral, ki, dt, clamp):
-    """trapezoid-of-the-error: your integral changes by dt times the mean of e and the
-      error of the previous step. The integral should change by e dt
-    trapezoid-of-the-error 2: your integral changes by dt times the mean of e and the
-      error of the next step. The integral should change by e dt
+    """trapezoid-of-the-error: your code integrates the mean of e and e - ed dt, an
+      estimate of the previous error. Add e dt to the integral instead
+    trapezoid-of-the-error 2: your code integrates the mean of e and e + ed dt, an
+      estimate of the next error. Add e dt to the integral instead
     old-sum-clamped: the sum of the old integral and e dt is not clamped in your result.
       Add e dt first, and then clamp the integral
     error-clamped: your code clamps the error instead of the integral, so the integral

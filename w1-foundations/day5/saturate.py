@@ -36,8 +36,8 @@ def _(tau, limits):
     smallest-limit-for-all: your code uses the smallest limit for all joints. Use each
       motor's own limit
     all-scaled-down: your code scales down all seven torques if one torque exceeds its
-      limit. Clamp only that torque, because the other motors can still supply their
-      full torques
+      limit. Clamp only torques beyond their limits, because the motors can supply the
+      other torques in full
     length-bounded: your code compares the norm of the torque vector with the limits.
       Compare each torque with its own limit
     """
@@ -59,11 +59,11 @@ def _(tau, limits):
       its limit, because the motor can still supply its maximum torque
     the-larger-one: your code returns the torque or its limit, whichever is larger in
       magnitude. Use the smaller magnitude with the sign of the torque
-    always-full: your code returns the positive or the negative limit for every torque.
-      A torque within the limits should not change
+    always-full: your code returns the positive or the negative limit for every nonzero
+      torque. A torque within the limits should not change
     one-over-stops-all: your code sets all seven torques to 0 if one torque exceeds its
-      limit. Clamp only that torque, because the other motors can still supply their
-      torques
+      limit. Clamp only torques beyond their limits, because the motors can supply the
+      other torques in full
     nothing-within-the-limits: your code returns 0 if all torques are within their
       limits. Torques within their limits should not change
     first-limit-typed-in: your code uses the limit 87 N m for all joints. Use each
