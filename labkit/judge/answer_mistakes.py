@@ -113,8 +113,8 @@ _OF_A_POSE = _mistakes(
     R-transposed: your translation is correct, but your rotation matrix T[:3, :3] is
       transposed, so it {wrong_way}
     inverse-returned: your result is the inverse of the correct pose, so it {wrong_way}
-    T-transposed: your whole 4x4 matrix is transposed, so its bottom row is not (0, 0,
-      0, 1)
+    T-transposed: your whole 4x4 matrix is transposed, so the translation is in its
+      bottom row
     t-in-last-row: your translation is in the last row instead of the last column
     corner-zero: your bottom row is (0, 0, 0, 0) instead of (0, 0, 0, 1)
     ones-below: your bottom row is (1, 1, 1, 1) instead of (0, 0, 0, 1)
