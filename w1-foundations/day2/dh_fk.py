@@ -47,7 +47,7 @@ def _(table, q):
       angle 0 for this row, because the flange does not rotate relative to link7
     theta-one-row-late: your code uses each angle one row too late. The angle of the
       first row should be `q[0]`, because this row belongs to joint1
-    theta-one-row-early: your code uses each angle one row too early. The angle of the
+    theta-one-row-early: your code uses the angles one row too early. The angle of the
       first row should be `q[0]`, because this row belongs to joint1
     product-reversed: your code multiplies the matrices in the reverse order. The matrix
       of the link nearest to the base belongs on the left

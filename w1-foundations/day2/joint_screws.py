@@ -43,9 +43,9 @@ def _(T_zero):
       Use each pose unchanged, because the given poses are already relative to the world
     point-turned-back: your code rotates the point into the link frame. Use the point
       unchanged, because it is already expressed in the world frame
-    next-links-point: your code uses the origin of the next link as the point on the
-      axis, but this origin is not always on the axis. Use the origin of the link that
-      the joint moves
+    next-links-point: your code uses the origin of the next link, and of link1 for
+      joint7, as the point on the axis. This origin is not always on the axis. Use the
+      origin of the link that the joint moves
     """
     R = T_zero[:, :3, :3]
     p = T_zero[:, :3, 3]
