@@ -88,8 +88,8 @@ FIRST_FOR_ALL = Change(
 )
 ONE_OFF = Change(
     "off-by-one-joint",
-    "your index into `{name}` is off by one, so your code uses the entry of the "
-    "previous joint for each joint",
+    "your index into `{name}` is off by one, so each joint after the first uses "
+    "the entry of the previous joint",
     partial(np.roll, shift=1),
 )
 OF_ALL_JOINTS = (
