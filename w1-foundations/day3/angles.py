@@ -111,7 +111,7 @@ def _everywhere(
     return Finding(
         "large-angles",
         "In the tests, your result is wrong only for angles of "
-        f"{np.degrees(least):.0f} degrees or more, by up to "
+        f"about {np.degrees(least):.0f} degrees or more, by up to "
         f"{difference(S, T).max():.3g} rad. Look at the part of your function for "
         "angles near pi.",
     )

@@ -38,7 +38,7 @@ def _(J_space, T):
       omega), where R and p are the rotation and the translation of T^-1. In an adjoint,
       this is the block R [p] instead of [p] R
     turned-by-R: both halves of your result are multiplied by R, which rotates from the
-      hand frame to the world frame. Use R^T instead
+      hand frame to the world frame. Both halves should be multiplied by R^T instead
     point-not-rotated: your v contains the term (R^T omega) x p with p in the world
       frame, where R and p are the rotation and the translation of T. Use R^T (omega x
       p) instead, so that both factors are expressed in the same frame

@@ -41,8 +41,9 @@ def _(J, e, damping):
     """relative-damping: your code multiplies `damping` by the largest singular value of
       J. Use `damping` unchanged, because the step minimises |J dq - e|^2 + damping^2
       |dq|^2
-    damping-dropped: your result is the pseudo-inverse step, which is very large near a
-      singularity. With damping, the step minimises |J dq - e|^2 + damping^2 |dq|^2
+    damping-dropped: your result is the pseudo-inverse step, which can be very large
+      near a singularity. With damping, the step minimises |J dq - e|^2 + damping^2
+      |dq|^2
     damping-everywhere: your code adds damping^2 to every entry of J J^T. Add damping^2
       only to the diagonal of J J^T
     transpose-only: your code returns the gradient step J^T e. The damped least-squares

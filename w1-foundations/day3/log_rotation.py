@@ -142,8 +142,9 @@ def _(R):
       so its norm is 2 sin(angle / 2). The norm should be the angle
     axis-only: your vector is the unit vector along the axis. The norm of the vector
       should be the angle
-    arcsine: your angle is the arcsine of its sine, which is the same for 100 degrees
-      and 80 degrees. Use atan2 with the sine and the cosine of the angle instead
+    arcsine: your angle is the arcsine of the sine of the correct angle. This sine is
+      the same for 100 degrees and 80 degrees. Use atan2 with the sine and the cosine of
+      the angle instead
     half-the-angle: the norm of your vector is half the rotation angle. The norm should
       be the full rotation angle
     in-degrees: the norm of your vector is the angle in degrees. Use radians instead
@@ -168,12 +169,12 @@ def _(R):
 
 @row.wrongs
 def _(R):
-    """half-the-trace-less-1: the cosine of your angle is `trace / 2 - 1`. The cosine
-      should be `(trace - 1) / 2`
-    half-the-trace-less-1 2: the cosine of your angle is `trace / 2 - 1`. The cosine
-      should be `(trace - 1) / 2`
-    half-the-trace-less-1 3: the cosine of your angle is `trace / 2 - 1`. The cosine
-      should be `(trace - 1) / 2`
+    """half-the-trace-less-1: your code uses `trace / 2 - 1` as the cosine of the angle.
+      The cosine should be `(trace - 1) / 2`
+    half-the-trace-less-1 2: your code uses `trace / 2 - 1` as the cosine of the angle.
+      The cosine should be `(trace - 1) / 2`
+    half-the-trace-less-1 3: your code uses `trace / 2 - 1` as the cosine of the angle.
+      The cosine should be `(trace - 1) / 2`
     """
     c = np.trace(R) / 2 - 1
     angle = np.arccos(c)
@@ -189,8 +190,8 @@ def _(R):
     """textbook-formula: your code multiplies R - R^T by theta / (2 sin(theta)). For the
       identity matrix, this factor is 0 / 0. For angles near pi, it amplifies the
       rounding errors. Treat both cases separately
-    nan-at-0: your result for the identity matrix is NaN, because your code divides by
-      the sine of 0 or by a norm of 0. Return the zero vector for a rotation by 0
+    nan-at-0: your result for the identity matrix is NaN, as after a division by the
+      sine of 0 or by a norm of 0. Return the zero vector for a rotation by 0
     arccosine-beyond-1: your result is NaN where rounding makes (trace - 1) / 2 larger
       than 1 or smaller than -1. Compute the angle with atan2 instead of the arccosine
     """
@@ -292,8 +293,8 @@ def _(R):
 
 @row.wrong
 def two_arguments_exchanged(R):
-    """your angle is pi minus the correct angle, because the cosine of your angle has
-    the wrong sign. The cosine should be `(trace - 1) / 2`"""
+    """your angle is pi minus the correct angle, so its cosine has the wrong sign. The
+    cosine should be `(trace - 1) / 2`"""
     w = log_rotation(R)
     angle = np.linalg.norm(w)
     return (np.pi - angle) * w / angle if angle > 0 else w

@@ -47,11 +47,11 @@ def _(J):
     largest-singular-value: your code returns the largest singular value of J. The
       result should be the product of all six singular values
     trace: your result is the square root of the trace of J J^T, which is the sum of the
-      eigenvalues. Use the determinant instead, which is the product of the eigenvalues
+      eigenvalues. The result should be the square root of the determinant, which is the
+      product of the eigenvalues
     inverse-condition: your code returns the smallest singular value divided by the
       largest. The result should be the product of all six singular values
-    square-part: your code returns the determinant of the first six columns. Use all
-      seven columns
+    square-part: your code uses only the first six columns of J. Use all seven columns
     position-only: your code uses only the three rows of v in J. Use all six rows
     zeros-left-out: your code leaves singular values of 0 out of the product. Include
       these values, because the product should be 0 if any singular value is 0

@@ -26,7 +26,7 @@ def what_the_hand_feels(case: Case) -> Finding | None:
         return Finding(
             "felt",
             f"The hand moves in {k} of {len(S)} calls. J times your result should be "
-            f"0, but the largest entry of this product is {felt.max():.2g}.",
+            f"0, but it has entries of up to {felt.max():.2g} in absolute value.",
         )
     i = int(np.argmax(difference(S, T)))
     return Finding(
@@ -57,15 +57,15 @@ def _(rng):
 
 @row.wrongs(hidden={"one-direction-only": "its J have rank 6"})
 def _(J, dq):
-    """transpose-for-pseudo-inverse: your code uses J^T instead of J^+, so your matrix
-      is not a projection and the hand moves
+    """transpose-for-pseudo-inverse: your code uses J^T instead of J^+, so the hand
+      moves for most J
     felt-part: your code returns J^+ J dq, which is the part of dq that moves the hand.
       Return the remaining part of dq
     unchanged: your code returns dq unchanged. Subtract the part of dq that moves the
       hand
     added: your code adds the part of dq that moves the hand. Subtract this part instead
-    nothing-left: your result is always 0. An arm with seven joints always has motions
-      that do not move the hand. Return the part of dq along these motions
+    nothing-left: your result is 0 in every call. An arm with seven joints always has
+      motions that do not move the hand. Return the part of dq along these motions
     normalised: your code normalises the result. Return the projection itself, whose
       norm depends on dq
     one-direction-only: your result contains only one of the directions that J maps to

@@ -30,10 +30,10 @@ BOTH_MOVE = "there both halves move"
 def _(screws, M, T_goal, q_start, limits):
     """one-step: your code takes only one step. The Jacobian gives only a linear
       approximation, so repeat the step until the error is small
-    start-returned: your code returns `q_start`, because it takes no step or because
-      every step increases the error. Does your error have the correct sign?
+    start-returned: your code returns `q_start`. Does your loop change q, does the error
+      have the correct sign, and does your code return the q with the smallest error?
     step-returned: your result is 0 for every joint, like the last step at the target.
-      Return the configuration after this step instead
+      The result should be a configuration, not a step
     """
     first = partial(passed, screws, M, T_goal, q_start, limits, steps=1)
     return {
@@ -89,8 +89,8 @@ def _(screws, M, T_goal, q_start, limits):
 
 @row.wrong(hidden="it arrives all the same: success is no proof")
 def damping_not_squared(screws, M, T_goal, q_start, limits):
-    """your steps contain damping^4 instead of damping^2. Pass the damping itself to the
-    damped least-squares step, which already squares this value"""
+    """your steps contain damping^4 instead of damping^2. The damping is the square root
+    of e.e / 2 + 1e-6, and `dls_step` already squares the damping"""
     return walk(screws, M, T_goal, q_start, limits, damping=lambda ee: ee / 2 + 1e-6)
 
 

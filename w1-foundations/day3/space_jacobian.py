@@ -102,8 +102,8 @@ def _(screws, q):
       world frame
     rotation-only: your code only rotates the screws. Their v should also contain the
       term p x (R omega), which is the block [p] R in the lower left of the adjoint
-    translation-only: your code does not rotate the screws. Both halves should be
-      multiplied by R, which is in both diagonal blocks of the adjoint
+    translation-only: your code does not rotate the screws. Both halves of each screw
+      should first be multiplied by R, so the term that is added to v is p x (R omega)
     """
     adjoints = {
         "bracket-top-right": lambda R, P: [[R, P @ R], [ZERO, R]],
