@@ -30,7 +30,8 @@ def _(V):
       result
     v-in-both-corners: your code puts [v] in both off-diagonal blocks. The upper right
       block should be 0, because v does not change an angular velocity
-    v-last: your lower right block is [v]. Both diagonal blocks should be [omega]
+    v-last: your lower right block is [v], and your lower left block is 0. The lower
+      right block should be [omega], and the lower left block should be [v]
     identity-added: your code adds the identity matrix. Omit the identity matrix,
       because ad(0) should be 0
     product-for-v: your lower left block is [v] [omega]. This block should be [v],

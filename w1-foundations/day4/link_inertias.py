@@ -47,7 +47,8 @@ def _(T_links, masses, coms, inertias):
     """com-in-link-axes: your code uses the centre of mass in the link frame. Transform
       the centre of mass into the world frame with T
     com-turned-back: your code rotates the centre of mass with R^T, which rotates from
-      the world frame to the link frame. Use R instead
+      the world frame to the link frame. The correct rotation is R, which rotates from
+      the link frame to the world frame
     com-seen-from-the-link: your code transforms the centre of mass with the inverse of
       T. Use T itself, which maps link coordinates to world coordinates
     inertia-not-turned: your inertia about the centre of mass is still expressed in the
@@ -56,8 +57,8 @@ def _(T_links, masses, coms, inertias):
       expresses the inertia in the world frame
     inertia-diagonal: your code uses only the diagonal of each inertia matrix. Use all
       entries, because the axes of the link frame are in general not the principal axes
-    R-transposed: your code transposes R for the centre of mass and for the inertia. Use
-      R itself, which rotates from the link frame to the world frame
+    R-transposed: your code transposes R for the centre of mass and for the inertia. The
+      correct rotation is R itself, which rotates from the link frame to the world frame
     """
 
     def back(R, I):
@@ -87,9 +88,9 @@ def _(T_links, masses, coms, inertias):
       Place this mass at the link's centre of mass
     poses-multiplied: your code multiplies the poses along the arm. Use each pose
       unchanged, because the poses in T_links are already relative to the world
-    last-link-for-all: all seven of your matrices belong to link7. Does your loop
-      overwrite one array and append this array for every link? Create a new array for
-      each link
+    last-link-for-all: all seven of your matrices belong to link7. Each matrix should
+      belong to its own link. Does your loop overwrite one array and append this array
+      for every link?
     already-summed: your code adds the inertias of all later links to each link's
       matrix. Each matrix should contain only the inertia of its own link
     """
