@@ -72,10 +72,9 @@ def _(T_world_cube, above):
 def _(T_world_cube, above):
     """tool-up: your code returns a pose in which the z axis of the tool points up.
       Rotate the tool by 180 degrees about its x axis, so that its z axis points down
-    about-y: your tool is rotated by 180 degrees about the vertical. Either the yaw is
-      off by 180 degrees, or your code rotates the tool about its y axis to point it
-      down. Rotate it about its x axis instead, so that at yaw 0 the tool's x axis has
-      the direction of the world x axis
+    about-y: your tool is rotated by 180 degrees about the vertical, as by a yaw that is
+      off by 180 degrees or by a rotation about the y axis that points the tool down. At
+      a yaw of 0, the x axis of the tool should have the direction of the world x axis
     left-handed: your code reverses only the z axis, so the matrix is a reflection with
       determinant -1. Reverse the y axis as well, because a rotation matrix has
       determinant 1

@@ -58,8 +58,8 @@ def line(T0, T1, s, turn):
 @row.wrongs
 def _(T0, T1, s):
     """by-entries: your code interpolates the entries of R0 and R1 linearly, so the
-      result between the two ends is not a rotation matrix. Multiply the angle of the
-      rotation from R0 to R1 by s instead
+      result between the two ends is in general not a rotation matrix. Multiply the
+      angle of the rotation from R0 to R1 by s instead
     entries-made-a-rotation: your orientation is the rotation matrix nearest to the
       linear interpolation of R0 and R1, so the angular velocity is not constant.
       Multiply the angle of the rotation from R0 to R1 by s instead
@@ -72,9 +72,9 @@ def _(T0, T1, s):
     turn-on-the-left: your orientation is a rotation about the axis of R0^T R1, times
       R0. This axis is expressed in the frame of T0, so the rotation should multiply R0
       from the right
-    turn-backwards: your orientation rotates away from R1. Either your code uses R1^T R0
-      instead of R0^T R1, which is the rotation from R0 to R1, or the angle has the
-      wrong sign
+    turn-backwards: your orientation rotates by the correct angle, but in the opposite
+      direction. Check the order of the factors in the rotation from R0 to R1, and the
+      sign of the angle
     logarithms-mixed: your orientation is the linear interpolation of the rotation
       vectors of R0 and R1. Multiply the rotation vector of the rotation from R0 to R1
       by s instead, because rotations about different axes do not add

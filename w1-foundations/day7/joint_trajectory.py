@@ -34,7 +34,7 @@ def _(q0, q1, t, T):
     goal-for-way: your code uses q1 as the displacement, so the motion ends at q0 + q1.
       Use q1 - q0 instead
     way-reversed: your displacement has the wrong sign, so the arm moves away from the
-      goal. Use q1 - q0
+      goal. The displacement should be q1 - q0
     speed-forwards-only: in your result, every joint moves in the positive direction.
       Keep the sign of the displacement q1 - q0
     rates-without-way: your code returns sd and sdd as the velocity and the acceleration

@@ -26,8 +26,8 @@ def never_less(case: Case) -> Finding | None:
     if case.T[off].max() > min(least, case.T[~off].min()):
         return None
     says = (
-        f"Your code never returns less than {least:g} s. Remove this lower bound, "
-        "because a short motion needs less time."
+        f"Your code returns {least:g} s for a short motion that needs less time. Does "
+        "your code have a lower bound for the duration?"
     )
     return Finding("never-less", says)
 
@@ -59,8 +59,8 @@ def seconds(delta_q, v_max, a_max, speed=PEAK_SPEED, acceleration=PEAK_ACCELERAT
 @row.wrongs
 def _(delta_q, v_max, a_max):
     """least-of-all: your code returns the shortest duration among all joints and
-      limits. Return the longest duration instead, because only this duration satisfies
-      all limits
+      limits. Return the longest duration instead, because any shorter duration
+      violates a limit
     added-up: your code returns the sum of the durations for all joints and limits.
       Return the longest duration instead, because this duration already satisfies all
       limits
@@ -112,8 +112,8 @@ def _(delta_q, v_max, a_max):
     shorter-of-two 2: for each joint, your code uses the shorter of the durations for
       the velocity limit and the acceleration limit. Use the longer duration instead,
       because it satisfies both limits
-    fastest-joint: your code returns the shortest duration of all joints, so the other
-      joints violate their limits. Return the longest duration instead
+    fastest-joint: your code returns the shortest duration of all joints, so joints that
+      need more time violate their limits. Return the longest duration instead
     fastest-joint 2: for each kind of limit, your code uses the shortest duration of all
       joints. Use the longest duration instead, because every joint should stay within
       its limits

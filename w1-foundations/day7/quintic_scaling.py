@@ -86,8 +86,9 @@ def _(t, T):
     sd-and-sdd-not-divided: your code returns the derivatives with respect to x = t /
       duration as sd and sdd. By the chain rule, divide sd by the duration and sdd by
       duration^2
-    t-for-x: your code evaluates the polynomial at t, so the duration has no effect.
-      Evaluate the polynomial at t / duration instead
+    t-for-x: your code evaluates the polynomial and its derivatives at t, so the
+      duration has no effect. Evaluate them at t / duration instead, clamped to [0, 1],
+      and apply the chain rule to sd and sdd
     not-divided+not-clipped: your code returns the derivatives with respect to x = t /
       duration instead of t. Your code also evaluates the polynomial before the start
       and after the end, when the robot should be at rest

@@ -76,14 +76,15 @@ def _(t, L, v, a):
     triangle-too-soon: your code uses a triangular profile for all L < 2 v^2 / a, so the
       velocity can exceed v. Use a triangular profile only for L < v^2 / a, because the
       two ramps together cover the distance v^2 / a
-    triangle-too-high: your triangular profile has the height sqrt(2 L a), so its area
-      is 2 L. The area should be L, because the area under the velocity curve is the
-      distance
-    triangle-too-low: your triangular profile has the height sqrt(L a / 2), so its area
-      is L / 2. The area should be L, because the area under the velocity curve is the
-      distance
-    triangle-not-a-root: your triangular profile has the height L a, which has the unit
-      of a squared velocity. Use the square root of L a instead
+    triangle-too-high: for L < v^2 / a, the peak velocity of your profile is sqrt(2 L
+      a). A triangle with this height and the slopes a and -a has the area 2 L. The area
+      should be L, because the area under the velocity curve is the distance
+    triangle-too-low: for L < v^2 / a, the peak velocity of your profile is sqrt(L a /
+      2). A triangle with this height and the slopes a and -a has the area L / 2. The
+      area should be L, because the area under the velocity curve is the distance
+    triangle-not-a-root: for L < v^2 / a, the peak velocity of your profile is L a,
+      which has the unit of a squared velocity. The peak velocity should be the square
+      root of L a
     """
     peak = np.sqrt(L * a)
     short = v**2 > L * a  # L is too short to reach v
