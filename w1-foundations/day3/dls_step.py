@@ -58,9 +58,10 @@ def _(J, e, damping):
     singular-value-missing 2: for each singular value s above 0, your code uses the
       factor 1 / (s^2 + damping^2). Multiply this factor by s, because J^T contributes a
       factor of s
-    damping-as-a-cut: your step omits the directions with small singular values, as the
-      pseudo-inverse with `damping` as `rcond` does. Damping should only reduce the step
-      along these directions
+    damping-as-a-cut: your step omits the directions whose singular value is at most
+      `damping` times the largest one, as the pseudo-inverse with `damping` as `rcond`
+      does. Damping should reduce the step along these directions instead of omitting
+      them
     singular-value-missing: for each singular value s, your code uses the factor 1 /
       (s^2 + damping^2). Multiply this factor by s, because J^T contributes a factor of
       s
