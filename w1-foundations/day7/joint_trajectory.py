@@ -41,9 +41,9 @@ def _(q0, q1, t, T):
       of every joint. Multiply both by the joint's displacement
     rates-of-the-goal: your velocity and acceleration are sd q1 and sdd q1. Multiply sd
       and sdd by the displacement q1 - q0 instead
-    rates-divided-again: your velocity and acceleration are divided by powers of the
-      duration once too often. The results sd and sdd of `quintic_scaling` are already
-      derivatives with respect to t
+    rates-divided-again: your velocity is divided by the duration once too often, and
+      your acceleration by duration^2. The results sd and sdd of `quintic_scaling` are
+      already derivatives with respect to t
     q-wrapped: your code wraps the angles to [-pi, pi]. Return the angles unchanged,
       because the angle of a joint with limits is not periodic. For example, joint6 can
       move to 3.75 rad

@@ -59,7 +59,7 @@ TURNS = [
     ),
     HeldOut(
         "wrong-at-pi",
-        "Your function is correct except for rotations by 180 degrees or slightly "
+        "Your function is correct except for some rotations by 180 degrees or slightly "
         "less. For such a rotation R = R0^T R1, the matrix R - R^T is nearly 0 and "
         "does not determine the axis, but R + R^T determines the axis up to its sign.",
         _half_or_nearly,
@@ -75,9 +75,9 @@ TURNS = [
     ),
     HeldOut(
         "wrong-near-0",
-        "Your function is correct except for rotations by 2 degrees or less. Either a "
-        "special case for small angles is wrong, or the angle has a rounding error, "
-        "for example because arccos is inaccurate near 1.",
+        "Your function is correct except for some rotations by 2 degrees or less. "
+        "Either a special case for small angles is wrong, or the angle has a rounding "
+        "error, for example because arccos is inaccurate near 1.",
         _small,
     ),
 ]
