@@ -71,21 +71,21 @@ def _(J_space, qd, p):
     centripetal-twice: your result contains omega x (velocity of p) twice. Add this term
       only once, because the factor 2 belongs to the Coriolis acceleration in a rotating
       frame
-    p-sign: in your result, the terms with p have the wrong sign. Use alpha x p and
-      omega x p, not p x alpha and p x omega, because swapping the factors reverses the
-      sign
-    ad-swapped: in your result, the sum of ad(V) S qd has the wrong sign. Either V and S
-      are swapped in ad(V) S, or the twists are summed from the tip instead of the base
+    p-sign: in your result, the terms with p have the wrong sign, as with p x alpha and
+      p x omega. These terms should be alpha x p and omega x (omega x p), because
+      swapping the factors reverses the sign
+    ad-swapped: in your result, the sum of ad(V) S qd has the wrong sign, as if V and S
+      were swapped in ad(V) S or the twists were summed from the tip instead of the base
     ad-transposed: your result contains ad(V)^T S, but ad(V)^T transforms wrenches. Use
       ad(V) S, because ad(V) transforms screws
     ad-half: your result omits the term v x omega2 from the linear part of ad(V) S,
       where S = (omega2; v2). In matrix form, this term is the lower left block [v] of
       ad(V)
-    twist-of-the-hand: in your result, the sum of ad(V) S qd is 0. Either your code
-      omits this sum, or it uses the twist of the hand for every joint, and ad(V) V is
-      0. Use the twist of link i for joint i, which depends only on joints 1 to i
-    qd-once: your result contains the sum of ad(V) S, without the joint velocities. Sum
-      ad(V) S qd instead, because the twist of joint i is its screw times its velocity
+    twist-of-the-hand: in your result, the sum of ad(V) S qd is 0, as if it were omitted
+      or computed with the twist of the hand for every joint. For joint i, the sum
+      should contain the twist of link i, which depends only on joints 1 to i
+    qd-once: your result contains the sum of ad(V) S, without the factor qd. Sum ad(V) S
+      qd instead, because the twist of joint i is its screw times its velocity
     """
     changed = {
         "of-the-origin": {"turn": 0.0, "centre": 0.0, "move": 0.0},

@@ -60,8 +60,9 @@ def _(K, Lambda):
     root-on-both-sides: your result is 2 sqrt(Lambda) sqrt(K) sqrt(Lambda), so it is
       proportional to the mass. The result should be proportional to the square root of
       the mass
-    root-of-the-product: each entry of your result is twice the square root of the entry
-      of K Lambda. Use the matrix square root of Lambda instead
+    root-of-the-product: each entry of your result is twice the square root of the
+      absolute value of the entry of diag(K) Lambda. Use the matrix square root of
+      Lambda instead
     cholesky: your result contains a Cholesky factor L, which satisfies L L^T = Lambda.
       Use the matrix square root X instead, which satisfies X X = Lambda
     """

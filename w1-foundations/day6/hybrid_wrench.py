@@ -31,7 +31,7 @@ def at(row, value, wrench):
 @row.wrongs
 def _(e, V_err, K, D, force):
     """pushes-up: your code uses `force` with the wrong sign. The z axis points up, but
-      the hand should push down
+      with a positive `force` the hand should push down
     spring-left-in: your code keeps the spring force along z, so the normal force
       depends on the height of the hand. Remove the spring force along z
     damper-left-out: your code omits the damping force along z. Remove only the spring

@@ -33,7 +33,7 @@ def _(J, wrench, bias, damping, qd, tau_null):
       Multiply `damping` and `qd` entry by entry instead
     bias-sign: your code subtracts `bias`. Add `bias` instead, because the motors must
       supply this torque even at zero acceleration
-    damping-sign: your code subtracts the damping torque. Add `damping * qd` instead,
+    damping-sign: your code subtracts `damping * qd`. Add `damping * qd` instead,
       because damping opposes the motion and the motors must compensate for it
     bias-six-times: your result contains `bias` six times, for example once for each of
       the six rows of J. Add `bias` only once

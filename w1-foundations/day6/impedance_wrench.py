@@ -15,7 +15,7 @@ row.inputs(springs)
 @row.wrongs
 def _(e, V_err, K, D):
     """diagonals: your result depends only on the diagonals of K and D. Use the whole
-      matrices, because the six directions are coupled
+      matrices, because they can couple the six directions
     millimetres: in your result, the linear error is in millimetres. Use metres, because
       the linear stiffness in K is in N/m
     """

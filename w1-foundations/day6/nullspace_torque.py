@@ -24,8 +24,8 @@ def damped(case: Case) -> Finding | None:
 
 
 DAMPED = (
-    "Your result contains the inverse of J M^-1 J^T with a number added to its "
-    "diagonal, so part of the torque still accelerates the hand. Use the argument "
+    "In your result, a number is added to the diagonal of J M^-1 J^T before the "
+    "inversion, so part of the torque still accelerates the hand. Use the argument "
     "Lambda."
 )
 # One matrix with two readings: J^T pinv(J^T) is J^+ J.
@@ -57,8 +57,9 @@ def _(J, M, Lambda, tau):
       that `tau` causes
     the-other-part: your result is the part of `tau` that accelerates the hand. Subtract
       this part from `tau`
-    position-only: your result removes only the linear acceleration of the hand, so the
-      hand still rotates. Remove the angular acceleration too
+    position-only: your result subtracts only J[3:]^T Lambda[3:, 3:] a, where a is the
+      linear acceleration of the hand, so the hand still accelerates. Use all six rows
+      of J and the whole matrix Lambda, because the six directions are coupled
     pinv-for-transpose: your result subtracts pinv(J) times the wrench from `tau`.
       Subtract J^T times the wrench instead, because J^T maps wrenches to torques
     pinv-of-transpose: your result is (I - J^T pinv(J^T)) tau, but I - J^T pinv(J^T) is

@@ -34,8 +34,9 @@ def _(J, Lambda, bias, bias_acc, acc):
       because J^T maps wrenches to torques
     site-bias-not-weighed: your wrench is Lambda acc - bias_acc. It should be Lambda
       (acc - bias_acc), because `bias_acc` is an acceleration
-    acc-sign: your result has the torque for `bias_acc - acc`, so the hand accelerates
-      in the opposite direction. Use `acc - bias_acc`, and check the sign of the wrench
+    acc-sign: in your result, the torque for `acc - bias_acc` has the wrong sign, as if
+      it were computed from `bias_acc - acc` or subtracted from `bias`. Add the torque
+      for `acc - bias_acc` to `bias`
     force-alone: your code applies only the force and omits the moment. Use all six
       columns of J^T, because the first three belong to the moment
     halves-swapped: your code uses accelerations in the order (linear; angular). The

@@ -27,15 +27,15 @@ def _(force, k, surface):
     """millimetres: your code computes the depth in millimetres. All lengths should be
       in metres
     whole-metres: your depth is rounded down to whole metres, as by the operator `//`.
-      Use the operator `/` instead
+      The depth should not be rounded
     docstrings-numbers: your code always uses the stiffness 400, which is the value in
       the docstring. Use the argument `k` instead
     docstrings-numbers 2: your code always uses the surface height 0.42, which is the
       value in the docstring. Use the argument `surface` instead
     never-below-zero: your code replaces negative heights with 0. Return the height
       unchanged, because the commanded height can be negative
-    newtons-as-weight: your depth is too small by the factor 9.81, as if the force were
-      converted to a mass. Use the force in newtons
+    newtons-as-weight: your depth is divided by 9.81, as if the force were converted to
+      a mass. Use the force in newtons
     """
     return {
         "millimetres": surface - 1000.0 * force / k,

@@ -21,8 +21,8 @@ def damped(case: Case) -> Finding | None:
 
 
 DAMPED = (
-    "Your result is the inverse of J M^-1 J^T with a number added to its diagonal. "
-    "Omit this number, because it makes Lambda too small."
+    "In your result, a number is added to the diagonal of J M^-1 J^T before the "
+    "inversion. Omit this number, because it makes Lambda too small."
 )
 NEARLY_SINGULAR = HeldOut(
     "small-values-cut",
