@@ -23,8 +23,8 @@ def slow(case: Case) -> Finding | None:
         own = np.diagonal(size, axis1=1, axis2=2).ravel()  # each joint's own entry
         if (np.diff(own[np.argsort(np.abs(qd).ravel())]) < -1e-9).any():
             return None  # it does not grow with the velocity
-    says = "In your result, a slow joint has less dry friction than a fast one. "
-    says += "The velocity determines only the sign of dry friction, not its magnitude."
+    says = "In your result, the magnitude of dry friction is below 1 for some moving "
+    says += "joints. It should be 1, because the velocity determines only the sign."
     return Finding("slow-left-out", says)
 
 

@@ -101,8 +101,8 @@ for slug, says, other in (
      "is the same in both frames",
                                      {"back": np.linalg.inv}),
     ("wrench-not-carried-back",
-     "your result only rotates the wrench into the world frame. Multiply the wrench by "
-     "Ad(T^-1)^T instead, which also moves the reference point of the moment to the "
+     "your result only rotates the wrench into the world frame. The transformation "
+     "should be Ad(T^-1)^T, which also moves the reference point of the moment to the "
      "world origin",
      {"back": lambda X: np.kron(np.eye(2), X[:3, :3].T)}),
     ("every-joint-feels-every-link",
@@ -129,9 +129,9 @@ for slug, says, other in (
     ("last-link-missing",
      "your code returns 0 in the columns of the last link. Include all seven links, "
      "because the last link also loads the joints", {"links": 6}),
-    ("pose-of-the-link-before", "your code uses the pose of the previous link for "
-                                "each link. T_links[0] is already the pose of link 1, "
-                                "so use T_links[i - 1] for link i",
+    ("pose-of-the-link-before", "your code uses the pose of the previous link for each "
+                                "link. T_links[0] is already the pose of link 1, and "
+                                "T_links[6] is the pose of link 7",
      {"pose": lambda T, i: T[i - 1] if i else np.eye(4)}),
     ("pose-on-the-link-before",
      "your code uses the pose of each link relative to the previous link. Use the "
@@ -162,8 +162,8 @@ for slug, says, other in (
      "Transform A as well, because the link regressor needs both in the link frame",
      {"both": False}),
     ("twist-too-late",
-     "your result uses the twist of the previous link for each link. Add S qd of joint "
-     "i first, because the twist of link i includes the velocity of joint i",
+     "your result uses the twist of the previous link for each link. The twist of link "
+     "i should include the velocity of joint i",
      {"late": True}),
 ):  # fmt: skip
     row.wrong(slug, says)(partial(walk, **other))

@@ -65,8 +65,8 @@ def _(J_site, R_site, extra, g):
     solutions-averaged: your result is the mean of the solutions for the individual
       poses. One pose does not determine all four parameters, so stack the rows of all
       poses
-    weight-for-mass: your code returns the weight in newtons instead of the mass. The
-      force of the payload is m g, so the column for m should contain g itself and not
+    weight-for-mass: your code returns the weight in newtons instead of the mass. Return
+      the mass in kilograms, as from a fit whose column for m contains g itself and not
       only its direction
     centre-for-first-moment: your code returns the centre of mass c in the last three
       entries. Return the first moment m c instead, because the equations are linear in

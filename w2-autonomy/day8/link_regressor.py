@@ -31,13 +31,14 @@ def _(V, Vd):
       because the momentum G V transforms like a wrench
     ad-not-transposed-plus: your velocity term is ad(V) G V. It should be -ad(V)^T G V,
       because the momentum G V transforms like a wrench
-    unit-vector-not-reset: column k of your result is the sum of the first k correct
-      columns. Use a new unit vector phi for each column, with only entry k set to 1
+    unit-vector-not-reset: each column of your result is the sum of the correct column
+      and all correct columns before it. For each column, only one entry of phi should
+      be 1, and all others should be 0
     gravity-added: your code adds gravity to Vd. Use Vd unchanged, because it already
       includes gravity as the acceleration -g of the base
     first-moments-empty: your code returns 0 in the columns for m c. The first moment m
-      c is a parameter of its own, so do not multiply or divide it by m, which is 0 in
-      these columns
+      c is a parameter of its own, so these columns should not depend on m, which is 0
+      in their unit vectors
     """
     right = link_regressor(V, Vd)
     X = ad(V)

@@ -90,8 +90,8 @@ for slug, says, code in (
      lambda phi: -abs(np.linalg.eigvalsh(pseudo(phi))[0])),
     ("first-moment-once",
      "your result does not depend on h. The pseudo-inertia should contain h both to "
-     "the right of Sigma and below it, because numpy.linalg.eigvalsh reads only the "
-     "lower triangle",
+     "the right of Sigma and below it. For example, numpy.linalg.eigvalsh reads only "
+     "the lower triangle",
      lambda phi: np.linalg.eigvalsh(
          np.triu(pseudo(phi)) + np.triu(pseudo(phi, h=0.0), 1).T)[0]),
     ("about-the-centre",

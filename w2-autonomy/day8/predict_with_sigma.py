@@ -29,16 +29,16 @@ def _(rng):
 @row.wrongs
 def _(Y, tau, Y_new, rtol):
     """columns-for-rank: your code divides the sum of the squared residuals by n - p.
-      Divide the sum by n - rank instead, because the rank is the number of parameters
-      that the truncated fit determines
+      Divide the sum by n - rank instead, because the truncated fit determines only as
+      many combinations of parameters as the rank
     one-more-taken-off: your code divides the sum of the squared residuals by n - rank -
       1. Divide the sum by n - rank instead, because the model has no constant term
     mean-of-sizes: your code uses the mean absolute residual as the noise level. Use
       sqrt(r . r / (n - rank)) instead, where r is the vector of residuals
     noise-added: your code adds the noise of a new measurement to sigma. Omit this
       noise, because sigma should include only the uncertainty of the fitted parameters
-    mean-taken-off: your noise level omits the mean of the residuals, as np.std does.
-      Use the residuals unchanged, because their mean is part of the noise
+    mean-taken-off: your noise level is computed from the residuals minus their mean, as
+      with np.std. Use the residuals unchanged, because their mean is part of the noise
     rank-taken-off-last: your code divides the sum of the squared residuals by n and
       then subtracts the rank. Divide the sum by n - rank instead
     noise-for-sigma: your code returns the noise level as sigma for every row of Y_new.
@@ -47,11 +47,12 @@ def _(Y, tau, Y_new, rtol):
     sigma-by-s-squared: your sigma contains the norm of y V S^-2, which is also the norm
       of y (Y^T Y)^+, where y is a row of Y_new. Use the norm of y V S^-1 instead, which
       is also the norm of y Y^+
-    sigma-with-V: your sigma contains V^T in the place of V, the matrix of the right
-      singular vectors. The third result of numpy.linalg.svd is V^T, so transpose it
+    sigma-with-V: your sigma contains V^T in the place of V, whose columns are the right
+      singular vectors. The third result of numpy.linalg.svd, for example, is V^T
     sigma-cut-not-squared: in your sigma, the limit of the singular values is sqrt(rtol)
       times the largest one, as if rtol were the limit of the eigenvalues of Y^T Y. Use
-      rtol^2 for these eigenvalues, because they are the squares of the singular values
+      rtol times the largest singular value, which corresponds to rtol^2 times the
+      largest of these eigenvalues
     sizes-added: your code uses the sum of the absolute entries of y V S^-1 in sigma,
       where y is a row of Y_new. Use the norm of y V S^-1 instead, because the variances
       of independent errors add

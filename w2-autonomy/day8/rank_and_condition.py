@@ -42,8 +42,8 @@ def of_what_counts(case: Case) -> Finding | None:
     if dust and not more and not fewer and not other:
         says = f"Your code counts a rounding error as a singular value in {dust} "
         says += f"{calls}. Square roots of the eigenvalues of Y^T Y have rounding "
-        says += "errors of 1e-8 times the largest singular value. With "
-        says += "numpy.linalg.svd, the errors are only 1e-16 times this value."
+        says += "errors of about 1e-8 times the largest singular value. With "
+        says += "numpy.linalg.svd, the errors are only about 1e-16 times this value."
         return Finding("rounding-counts", says)
     if dust:
         return None
@@ -131,8 +131,9 @@ for slug, says, told in (
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), (s[0] / s[n - 1]) ** 2)),
     ("cut-not-squared",
      "your limit of the singular values is sqrt(rtol) times the largest one, as if "
-     "rtol were the limit of the eigenvalues of Y^T Y. Use rtol^2 for these "
-     "eigenvalues, because they are the squares of the singular values",
+     "rtol were the limit of the eigenvalues of Y^T Y. Use rtol times the largest "
+     "singular value, which corresponds to rtol^2 times the largest of these "
+     "eigenvalues",
      lambda s, rtol: (n := np.sum(s**2 > rtol * s[0] ** 2), s[0] / s[n - 1])),
     ("hidden-for-shown",
      "your code counts the singular values below rtol times the largest one. Count the "
@@ -147,9 +148,9 @@ for slug, says, told in (
      "ratio itself, because only the eigenvalues of Y^T Y need a square root",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), np.sqrt(s[0] / s[n - 1]))),
     ("condition-inverted",
-     "your code divides the smallest singular value by the largest one. Divide the "
-     "largest one by the smallest one instead, so that the condition number is at "
-     "least 1",
+     "your code divides the smallest singular value above the limit by the largest "
+     "one. Divide the largest one by this value instead, so that the condition number "
+     "is at least 1",
      lambda s, rtol: (n := np.sum(s > rtol * s[0]), s[n - 1] / s[0])),
 ):  # fmt: skip
     row.wrong(slug, says, HIDDEN.get(slug, ""))(

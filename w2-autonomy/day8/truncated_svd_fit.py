@@ -129,12 +129,13 @@ def _(Y, tau, rtol):
     cut-by-rows: your function multiplies rtol by the number of rows, as NumPy does with
       its default tolerance. Use rtol times the largest singular value as the limit
       instead
-    V-for-its-transpose: your result contains V^T in the place of V, the matrix of the
-      right singular vectors. The third result of numpy.linalg.svd is V^T, so transpose
-      it
+    V-for-its-transpose: your result contains V^T in the place of V, whose columns are
+      the right singular vectors. The third result of numpy.linalg.svd, for example, is
+      V^T
     cut-not-squared: your limit of the singular values is sqrt(rtol) times the largest
-      one, as if rtol were the limit of the eigenvalues of Y^T Y. Use rtol^2 for these
-      eigenvalues, because they are the squares of the singular values
+      one, as if rtol were the limit of the eigenvalues of Y^T Y. Use rtol times the
+      largest singular value, which corresponds to rtol^2 times the largest of these
+      eigenvalues
     ridge: your result is a ridge regression, with a constant added to the diagonal of
       Y^T Y, which shrinks the estimates of all combinations of parameters. Omit the
       small singular values instead, so that the estimates of the other combinations do
