@@ -28,13 +28,13 @@ def velocity(q, dt, *, change):
 
 
 for slug, says, other in (
-    ("forward", "your code computes each velocity from the next sample, which is not "
+    ("forward", "your code computes velocities from the next sample, which is not "
                 "known yet. Use the previous sample instead",
      {"change": lambda q: np.append(np.diff(q), 0.0)}),
-    ("forward", "your code computes each velocity from the next sample, which is not "
+    ("forward", "your code computes velocities from the next sample, which is not "
                 "known yet. Use the previous sample instead",
      {"change": lambda q: np.append(np.diff(q), np.diff(q)[-1])}),
-    ("forward", "your code computes each velocity from the next sample, which is not "
+    ("forward", "your code computes velocities from the next sample, which is not "
                 "known yet. Use the previous sample instead",
      {"change": lambda q: np.diff(q, append=0.0)}),
     ("central",

@@ -42,7 +42,7 @@ def _(rng):  # at the threshold, which is not over it
 @row.wrongs
 def _(residual, threshold):
     """first-joint: your function returns the first joint over its threshold. Return the
-      last such joint instead, because a contact also causes torques at the joints
+      last such joint instead, because a contact can also cause torques at the joints
       between the base and the touched link
     first-joint 2: your function returns the first joint over its threshold, or 1 if
       there is none. Return the last such joint instead, or 0 if there is none

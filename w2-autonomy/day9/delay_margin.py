@@ -43,8 +43,8 @@ for slug, says, other in (
      "is the positive root of x^2 - kd^2 x - kp^2 = 0",
      {"w": lambda kp, kd: np.sqrt((kd**2 + np.sqrt(abs(kd**4 - 4 * kp**2))) / 2)}),
     ("half-left-out",
-     "your code does not halve kd^2 in the quadratic formula. The result should be w^2 "
-     "= kd^2 / 2 + sqrt(kd^4 / 4 + kp^2)",
+     "your code does not halve kd^2 in the quadratic formula. The formula should give "
+     "w^2 = kd^2 / 2 + sqrt(kd^4 / 4 + kp^2)",
      {"w": lambda kp, kd: np.sqrt(kd**2 + np.sqrt(kd**4 + kp**2))}),
     ("neither-squared",
      "your code uses kd and kp instead of their squares in the quadratic formula. Use "

@@ -66,8 +66,9 @@ for slug, says, other in (
      "your code uses the wrong sign for the innovation or the gain, so the update "
      "moves the state away from the reading. The new state should be x + K (z - H x)",
      {"of": lambda z, Hx: Hx - z}),
-    ("R-rooted", "your code uses the square root of R. Use R itself, because R is a "
-                 "covariance and not a standard deviation",
+    ("R-rooted", "your code uses the square root of the absolute value of each entry "
+                 "of R. Use R itself, because R is a covariance and not a standard "
+                 "deviation",
      {"of_R": lambda R: np.sqrt(np.abs(R))}),
     ("divided-by-R",
      "your code computes the gain as P H^T R^-1 with the predicted P. Use S^-1 instead "
@@ -95,7 +96,7 @@ for slug, says, other in (
      {"new_P": lambda P, K, S, H, R: P - K @ S @ K.T + K @ R @ K.T}),
     ("x-only-where-read",
      "your code corrects only the measured entries of x. Correct all entries with K, "
-     "because the other entries are correlated with the measured ones",
+     "because the other entries can be correlated with the measured ones",
      {"new_x": lambda x, K, y, z, H: np.where((H != 0.0).any(axis=0), x + K @ y, x)}),
     ("x-by-the-reading", "your code multiplies K by the reading z. Multiply K by the "
                          "innovation z - H x instead",

@@ -81,8 +81,9 @@ for slug, says, other in (
      "because the rotation also changes the linear part of the twist",
      {"turned": lambda S, V: np.append(np.cross(S[:3], V[:3]), np.zeros(3))}),
     ("own-twist-only",
-     "your code uses only the velocity of joint i in V_i. Sum the velocities of joints "
-     "1 to i instead, because these joints move link i",
+     "your result is 0 for every joint, as if V_i contained only the velocity of joint "
+     "i. The twist V_i should be the sum of the velocities of joints 1 to i, because "
+     "these joints move link i",
      {"twists": lambda S, qd: S * qd[:, None]}),
     ("outer-twists",
      "your code sums the velocities of joints i to 7 in V_i. Sum the velocities of "
@@ -115,9 +116,9 @@ for slug, says, other in (
 @row.wrongs
 def _(J_space, G, qd):
     """C-qd: your code returns the Coriolis torque C qd. Return C^T qd instead, where
-      C^T is the transpose of C
+      the matrix C satisfies dM/dt = C + C^T
     minus-C-qd: your code returns -C qd, the negative Coriolis torque. Return C^T qd
-      instead, where C^T is the transpose of C
+      instead, where the matrix C satisfies dM/dt = C + C^T
     each-its-own-twist: your code uses -ad(S_i) V_k for each link k. Use -ad(S_i) V_i
       instead, because the twists of links i to 7 change by the same amount
     """

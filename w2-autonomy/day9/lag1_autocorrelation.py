@@ -56,8 +56,8 @@ for slug, says, other in (
      "n squares",
      {"squares": lambda d: d[1:] @ d[1:]}),
     ("two-sizes",
-     "your code divides by the product of the norms of y[1:] and y[:-1]. Divide by the "
-     "sum of all n squares instead",
+     "your code divides by the product of the norms of d[1:] and d[:-1], where d is y "
+     "minus its mean. Divide by the sum of all n squares instead",
      {"squares": lambda d: np.sqrt((d[1:] @ d[1:]) * (d[:-1] @ d[:-1]))}),
     ("by-n-sigma",
      "your code divides the mean of the products by the standard deviation. Divide the "

@@ -86,8 +86,8 @@ for slug, says, other in (
      "times the difference between x and the previous output instead",
      {"step": lambda y, now, before, a: y + a * (now - before)}),
     ("whole-numbers-kept",
-     "your outputs have no fractional part, as in an integer array. Create a float "
-     "array instead",
+     "your outputs have no fractional part, as in an integer array. Keep the "
+     "fractional part of each output",
      {"step": lambda y, now, before, a: np.trunc(np.trunc(y) + a * (now - np.trunc(y))),
       "first": lambda x, a: np.trunc(x[0])}),
 ):  # fmt: skip

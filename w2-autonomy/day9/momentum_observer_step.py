@@ -47,9 +47,9 @@ def _(residual, integral, momentum, tau, energy_grad, gravity, damping, qd, gain
       Update the integral first, and then use the new integral
     integral-not-handed-on: your code returns the previous integral. Return the new
       integral instead
-    fed-back-times-gain: your code adds gain times the previous residual to the
-      integral. Add the residual without the gain, because the residual is already a
-      torque
+    fed-back-times-gain: your code adds gain times the previous residual, times dt, to
+      the integral. Add the residual times dt without the gain, because the residual is
+      already a torque
     low-passed-again: your code adds `gain * (momentum - integral) * dt` to the previous
       residual. Return gain * (momentum - integral) itself, because the feedback in the
       integral already filters the residual

@@ -27,16 +27,16 @@ def interval(
 
 for slug, says, other in (
     ("multiplied-for-divided",
-     "your variance of the cube root is 2 n m / 9, as from 2 / 9 * n * m. Write 2 / (9 "
-     "* n * m) instead",
+     "your variance of the cube root is 2 n m / 9, as from 2 / 9 * n * m. It should be "
+     "2 / (9 n m)",
      {"c": lambda n, m: 2 / 9 * n * m}),
     ("added-for-multiplied",
      "your code uses n + m in the variance of the cube root. Use n m instead, because "
      "the sum of n NIS values has n m degrees of freedom",
      {"c": lambda n, m: 2 / (9 * (n + m))}),
     ("whole-division",
-     "your variance of the cube root is 0, as from the operator //. Use 2 / (9 * n * "
-     "m) instead",
+     "your variance of the cube root is 0, as from the operator //. It should be 2 / "
+     "(9 n m)",
      {"c": lambda n, m: 2 // (9 * n * m)}),
     ("shift-forgotten",
      "your function uses 1 as the mean of the cube root. Use 1 - c instead, where c is "
@@ -67,11 +67,11 @@ for slug, says, other in (
 @row.wrongs
 def _(n, m):
     """normal: your code uses m +- 1.96 sqrt(2 m / n), which treats the mean NIS as
-      Gaussian. Compute the interval for the cube root instead, because only the cube
-      root is nearly Gaussian
+      Gaussian. Compute the interval for the cube root instead, because the cube root is
+      closer to Gaussian
     one-over-n: your code uses m +- 1.96 / sqrt(n), which assumes a standard deviation
-      of 1 for each NIS. Compute the interval for the cube root instead, because only
-      the cube root is nearly Gaussian
+      of 1 for each NIS. Compute the interval for the cube root instead, because the
+      cube root is closer to Gaussian
     cube-inside: your code cubes 1 - c and 1.96 sqrt(c) separately. Cube the sum and the
       difference of the two instead
     """
