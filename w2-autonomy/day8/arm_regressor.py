@@ -83,8 +83,9 @@ for slug, says, other in (
      "ad(V) S qd and not ad(S) V qd, because swapping V and S reverses the sign",
      {"bracket": -1.0}),
     ("pose-not-inverted",
-     "in your result, V and A are transformed with Ad(T). Use Ad(T^-1) instead, "
-     "because it maps from the world frame to the link frame",
+     "in your result, V and A are transformed with Ad(T), and the wrench with Ad(T)^T. "
+     "Use Ad(T^-1) instead of Ad(T), because it maps from the world frame to the link "
+     "frame",
      {"into": adjoint}),
     ("offset-left-out",
      "your result omits the position p of the link's origin, which is in the lower "
@@ -92,8 +93,9 @@ for slug, says, other in (
      "point of V and A to the link's origin",
      {"into": lambda T: np.kron(np.eye(2), T[:3, :3].T)}),
     ("in-world-axes",
-     "your code does not transform V and A into the link frame. Transform both, "
-     "because the parameters of a link are expressed in the link's own frame",
+     "your code transforms neither V and A into the link frame nor the wrench back. "
+     "Transform all three, because the parameters of a link are expressed in the "
+     "link's own frame",
      {"into": lambda T: np.eye(6)}),
     ("wrench-back-with-the-inverse",
      "in your result, the wrench is transformed back to the world frame with Ad(T), as "

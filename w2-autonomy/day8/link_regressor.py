@@ -37,8 +37,8 @@ def _(V, Vd):
     gravity-added: your code adds gravity to Vd. Use Vd unchanged, because it already
       includes gravity as the acceleration -g of the base
     first-moments-empty: your code returns 0 in the columns for m c. The first moment m
-      c is a parameter of its own, so these columns should not depend on m, which is 0
-      in their unit vectors
+      c is a parameter of its own: in the unit vectors of these columns it is not 0,
+      although m is 0
     """
     right = link_regressor(V, Vd)
     X = ad(V)
