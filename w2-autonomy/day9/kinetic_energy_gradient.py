@@ -81,9 +81,9 @@ for slug, says, other in (
      "because the rotation also changes the linear part of the twist",
      {"turned": lambda S, V: np.append(np.cross(S[:3], V[:3]), np.zeros(3))}),
     ("own-twist-only",
-     "your result is 0 for every joint, as if V_i contained only the velocity of joint "
-     "i. The twist V_i should be the sum of the velocities of joints 1 to i, because "
-     "these joints move link i",
+     "your code uses only the velocity of joint i in V_i, so ad(S_i) V_i is 0. The "
+     "twist V_i should be the sum of the velocities of joints 1 to i, because these "
+     "joints move link i",
      {"twists": lambda S, qd: S * qd[:, None]}),
     ("outer-twists",
      "your code sums the velocities of joints i to 7 in V_i. Sum the velocities of "
