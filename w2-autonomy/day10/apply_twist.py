@@ -58,15 +58,16 @@ def _(T, xi):
       because the twist xi is expressed in the frame in which T is given
     apart: your code rotates R and adds v to t. Multiply T by the whole exponential
       instead, because a rotation about the origin also moves t
-    first-order: your code returns T + [xi] T, which is not a rigid transform. Return
-      exp([xi]) T instead
+    first-order: your code returns T + [xi] T, which is a rigid transform only if omega
+      is 0. Return exp([xi]) T instead
     t-not-turned: your code does not rotate t. Multiply T by the whole exponential
       instead, because a rotation about the origin also moves t
     v-as-translation: your code uses v as the translation of the exponential, which is
       correct only if omega is 0 or parallel to v. Use the translation of the matrix
       exponential instead
-    length-lost: your code divides xi by the norm of omega, so the rotation angle is 1
-      rad. The rotation angle should be the norm of omega
+    length-lost: your code divides xi by the norm of omega, or by the norm of v if omega
+      is 0. A rotation then has the angle 1 rad. The rotation angle should be the norm
+      of omega
     slides-left-out: your code returns T unchanged if omega is 0. Translate T by v
       instead
     identity-where-still: your code returns the identity matrix for xi = 0. Return T

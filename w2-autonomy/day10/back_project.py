@@ -116,8 +116,8 @@ for slug, says, other in (
      "your code adds the depth to z. Multiply the whole ray by the depth instead",
      {"scaled": lambda ray, d: ray + d * [0, 0, 1]}),
     ("depth-in-the-pixel",
-     "your x and y contain u - cx depth and v - cy depth, as from K^-1 (u, v, depth). "
-     "Use K^-1 (u, v, 1) instead, and multiply it by the depth",
+     "your x and y in the camera frame contain u - cx depth and v - cy depth, as from "
+     "K^-1 (u, v, depth). Use K^-1 (u, v, 1) instead, and multiply it by the depth",
      {"ray": lambda K, h, d: right_ray(K, h * [1, 1, 0] + d * [0, 0, 1]),
       "scaled": not_scaled}),
     ("moved-before-scaled",
@@ -139,8 +139,8 @@ for slug, says, other in (
 
 @row.wrong("depth-along-columns", hidden="the lab never has three points")
 def _(K, T_world_cam, pixels, depth):
-    """your code multiplies each column of the points by one depth. Multiply each row by
-    one depth instead (use depth[:, None]), because each row is a point"""
+    """for three points, your code multiplies each coordinate by one depth. Multiply all
+    coordinates of each point by the depth of this point instead"""
     by = depth if len(depth) == 3 else depth[:, None]
     return placed(K, T_world_cam, pixels, depth, scaled=lambda ray, _: ray * by)
 

@@ -42,7 +42,7 @@ def _(fovy, width, height):
     y-up: your code returns a negative fy. The focal length fy should be positive,
       because v and y both point down
     whole-division: your code rounds down half the width and half the height, as //
-      does. Divide with / instead, because the centre of an image that is 353 pixels
+      does. Do not round these values, because the centre of an image that is 353 pixels
       wide is at 176.5
     """
     f = height / 2 / np.tan(fovy / 2)

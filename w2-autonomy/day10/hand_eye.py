@@ -140,12 +140,12 @@ for slug, says, other in (
      {"turned": lambda R, t: t @ R}),
     ("first-motion-only",
      "your code solves for t from the first motion only. A single motion does not "
-     "determine t along the rotation axis of that motion, so stack the equations of "
+     "determine t along the rotation axis of that motion, so use the equations of "
      "all motions",
      {"some": slice(1)}),
     ("last-motion-only",
      "your code solves for t from the last motion only. A single motion does not "
-     "determine t along the rotation axis of that motion, so stack the equations of "
+     "determine t along the rotation axis of that motion, so use the equations of "
      "all motions",
      {"some": slice(-1, None)}),
 ):  # fmt: skip
@@ -158,7 +158,7 @@ for slug, says, other in (
 def _(A, B):
     """t-of-the-mean: your t is the mean of the solutions for the individual motions. A
       single motion does not determine t along the rotation axis of that motion, so
-      stack the equations of all motions
+      solve the equations of all motions together
     centred-the-other-way: your code subtracts the means of the rotation vectors and
       fits the rotation from a to b. Fit the rotation from b to a without subtracting
       the means, because a = R b has no translation

@@ -66,13 +66,13 @@ def all_turned(U, Vt):
 for slug, says, other in (
     ("mirror",
      "your R is a reflection if the determinant of U V^T is -1, where U S V^T is the "
-     "SVD of target^T source. In this case, negate the singular vector in U that "
-     "belongs to the smallest singular value",
+     "SVD of target^T source with both clouds centred. In this case, negate the "
+     "singular vector in U that belongs to the smallest singular value",
                {"rotation": lambda U, Vt: U @ Vt}),
     ("mirror-turned-round",
      "if U V^T is a reflection, your R is -U V^T, where U S V^T is the SVD of target^T "
-     "source. Negate only the singular vector in U that belongs to the smallest "
-     "singular value",
+     "source with both clouds centred. Negate only the singular vector in U that "
+     "belongs to the smallest singular value",
      {"rotation": all_turned}),
     ("largest-turned-round",
      "if U V^T is a reflection, your R has the singular vector of the largest singular "
@@ -106,7 +106,7 @@ for slug, says, other in (
      {"centre": lambda X: np.zeros(3)}),
     ("one-number-for-the-centre",
      "your code uses the mean of all coordinates, a single number, as the centroid. "
-     "Use axis=0 to compute one mean for each coordinate",
+     "Compute one mean for each coordinate instead",
      {"centre": lambda X: X.mean() + np.zeros(3)}),
     ("about-the-first",
      "your rotation is fitted to the offsets from the first point of each cloud. Use "

@@ -59,8 +59,9 @@ for slug, says, other in (
      "your code uses only the rows for v. Use the rows for u as well, because they "
      "also contain information about the pose", {"rows": lambda J: J[:, 1]}),
     ("sigma-for-variance",
-     "each entry of your result is the square root of the correct one. Omit the square "
-     "root, because a covariance contains variances, for example in rad^2",
+     "each entry of your result is the square root of the absolute value of the "
+     "correct one. Omit the square root, because a covariance contains variances, for "
+     "example in rad^2",
      {"told": lambda C: np.sqrt(np.abs(C))}),
     ("sigma-for-variance",
      "each entry of your result is the square root of the correct one. Omit the square "

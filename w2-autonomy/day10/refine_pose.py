@@ -114,8 +114,8 @@ for slug, says, other in (
      "camera frame",
      {"move": on_the_right}),
     ("first-order",
-     "your code uses I + [xi] instead of exp([xi]), so R is no longer a rotation. Use "
-     "the matrix exponential",
+     "your code uses I + [xi] instead of exp([xi]), so R need not remain a rotation. "
+     "Use the matrix exponential",
      {"move": first_order}),
     ("gradient",
      "your code uses J^T r as the step, where r is the reprojection error. Use the "
