@@ -93,7 +93,7 @@ def _(p, half_extents):
     to-the-middle-inside: inside the box, your code returns minus the distance to the
       centre. Return minus the distance to the nearest face instead
     to-the-middle: your code returns the distance to the centre of the box. Return the
-      distance to its surface instead
+      signed distance to its surface instead
     box-as-a-ball: your code treats the box as a sphere. Compare each coordinate with
       the half extent along its own axis
     box-as-a-ball 2: your code treats the box as a sphere. Compare each coordinate with
@@ -111,8 +111,9 @@ def _(p, half_extents):
       return minus the distance to the nearest face => both
     not-rooted: outside the box, your code returns the squared distance. Take the square
       root
-    nearest-corner: your code returns the distance to the nearest corner. Use `abs(p) -
-      half_extents` instead, because a face or an edge can be nearer
+    nearest-corner: your code returns the distance to the nearest corner. Outside the
+      box, return the norm of the positive entries of `abs(p) - half_extents` instead.
+      Inside the box, return minus the distance to the nearest face
     largest-half: your code uses the largest half extent on every axis. Use the half
       extent of each axis instead
     half-backwards: your code uses `half_extents` in reverse order. The first entry
@@ -134,8 +135,7 @@ def _(p, half_extents):
     one-number-inside: inside the box, your code always returns -1. Return minus the
       distance to the nearest face instead
     least-half-inside: inside the box, your code always returns minus the smallest half
-      extent, which is correct only at the centre. Return minus the distance to the
-      nearest face
+      extent. Return minus the distance to the nearest face instead, which depends on p
     smallest-part-inside: inside the box, your code returns minus the smallest entry of
       `abs(p)`. Return minus the smallest entry of `half_extents - abs(p)`, which is the
       distance to the nearest face
@@ -145,8 +145,9 @@ def _(p, half_extents):
       `abs(p) - half_extents` instead, because the shortest distance to a face is
       perpendicular to it
     size-of-the-difference: your code returns the distance from p to the corner at
-      `half_extents`. Use `abs(p) - half_extents`, which is the distance beyond each
-      pair of faces
+      `half_extents`. Outside the box, return the norm of the positive entries of
+      `abs(p) - half_extents` instead. Inside the box, return minus the distance to the
+      nearest face
     cut-at-one: your code clamps the entries of `abs(p) - half_extents` at 1. Omit this
       clamp, because the distance can be larger than 1 m
     corner-or-face: near an edge, your code returns the larger of the two positive
@@ -163,7 +164,8 @@ def _(p, half_extents):
     edges-negative: your code returns a negative distance outside the box, near an edge
       or a corner. The signed distance should be positive everywhere outside the box
     cut-at-both: your code clamps p to the box and returns the norm of the clamped
-      point. Outside the box, return the distance from p to the clamped point instead
+      point. Outside the box, return the distance from p to the clamped point instead.
+      Inside the box, return minus the distance to the nearest face
     """
     beyond = np.abs(p) - half_extents
     out = np.maximum(beyond, 0.0)

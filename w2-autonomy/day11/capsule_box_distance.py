@@ -18,8 +18,9 @@ def above(case):
     return Finding(
         "not-the-least",
         "No result is too small, but some are too large, by up to "
-        f"{1000 * more.max():.3g} mm. Your code does not find the nearest point of the "
-        "axis. Does it test only some points, or does the search stop too early?",
+        f"{1000 * more.max():.3g} mm. This happens if your code does not find the "
+        "nearest point of the axis. Does it test only some points, or does the search "
+        "stop too early?",
     )
 
 
@@ -174,16 +175,17 @@ def _(a0, a1, r, T_world_box, half_extents):
       still has sharp corners. Subtract the radius from the distance instead
     way-not-turned: your axis starts at the correct point in the box frame, but its
       direction is expressed in the world frame. Multiply `a1 - a0` by R^T
-    wrong-half-kept: your code returns the distance at the farthest point of the axis.
-      Find the minimum of `box_sdf` along the axis. In a search, keep the part of the
-      interval with the smaller value
+    wrong-half-kept: your code searches for the maximum of `box_sdf` along the axis.
+      Search for the minimum instead: keep the part of the interval with the smaller
+      value
     wrong-half-kept 2: your code returns the distance at the farthest point of the axis.
       Find the minimum of `box_sdf` along the axis. In a search, keep the part of the
       interval with the smaller value
     bounding-sphere: your code treats the box as a sphere. Compare each coordinate with
       the half extent along its own axis
-    ends-left-out: your code never tests the endpoints of the axis. Include both
-      endpoints, because the nearest point can be one of them
+    ends-left-out: your code tests only some points of the axis, and neither endpoint.
+      Minimise `box_sdf` along the whole axis, because the nearest point can be an
+      endpoint or lie between the tested points
     never-negative: your code returns 0 for shapes that overlap. The signed distance
       should be negative for such shapes
     sign: your code negates the signed distance. The signed distance should be positive
@@ -196,8 +198,9 @@ def _(a0, a1, r, T_world_box, half_extents):
       the axis. Omit this subtraction, because a direction is rotated but not translated
     way-moved 2: your code uses the vector from the centre of the box to `a1` as the
       direction of the axis. Use `a1 - a0` instead
-    way-of-length-1: your code treats the axis as 1 m long. Use `a1 - a0` without
-      normalisation, because the axis ends at `a1`
+    way-of-length-1: your code treats the axis as 1 m long. The search should end at
+      `a1`: with a unit vector as the direction, s ends at the length of the axis and
+      not at 1
     not-into-the-box: your code leaves the endpoints in the world frame. Use `R^T (x -
       t)` to express each endpoint x in the box frame
     radius-off-the-box: your code shrinks the box by the radius. Subtract the radius

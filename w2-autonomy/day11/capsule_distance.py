@@ -135,9 +135,11 @@ def _(a0, a1, ra, b0, b1, rb):
     radii-as-sides: your code subtracts `sqrt(ra**2 + rb**2)`. Subtract `ra + rb`
       instead, because the two radii lie on the same line
     root-of-squares: your code returns `sqrt(d**2 - (ra + rb)**2)`, where d is the
-      distance between the axes. Return `d - (ra + rb)` instead
-    root-of-squares 2: your code returns `sqrt(d**2 - (ra + rb)**2)`, where d is the
-      distance between the axes. Return `d - (ra + rb)` instead
+      distance between the axes, or 0 for capsules that overlap. Return `d - (ra + rb)`
+      instead
+    root-of-squares 2: your code uses the square root of the absolute value of `d**2 -
+      (ra + rb)**2`, where d is the distance between the axes. Return `d - (ra + rb)`
+      instead
     least-part: your code uses the smallest absolute component of the vector between the
       closest points as their distance. Use the norm of this vector instead
     parts-with-signs: your code adds the components of the vector between the closest

@@ -76,7 +76,8 @@ def _(a0, a1, b0, b1):
     """not-clamped: your code does not clamp s and t. Clamp both to [0, 1], because
       otherwise the points can lie outside the segments
     clamped-apart: your code clamps s and t independently. If one parameter is clamped,
-      the optimal value of the other changes, so recompute the other parameter
+      the optimal value of the other can change. Clamp s, then recompute and clamp t,
+      and finally recompute and clamp s
     s-not-again: if t is clamped, your s may not be the optimal value for this t.
       Recompute s after t is clamped, because the optimal s depends on t
     s-not-again 2: if s is clamped, your t may not be the optimal value for this s.
@@ -96,16 +97,14 @@ def _(a0, a1, b0, b1):
       instead
     end-pairs: your code returns the closest pair of endpoints. Compute s and t instead,
       because the closest points can lie between the endpoints
-    end-pairs 2: your code returns the endpoint of the first segment that is nearest to
-      the second segment. Compute s instead, because the closest point can lie between
-      the endpoints
-    w-sign: your code uses the vector between the start points with the wrong sign. Use
-      `w = a0 - b0`, the vector from the start of the second segment to the start of the
-      first
-    d-and-e-swapped: your code swaps the dot products of w with u and v. Use d = u . w
-      and e = v . w
-    numerator-sign: your code negates s for the infinite lines. Use `s = (b e - c d) /
-      (a c - b b)`
+    end-pairs 2: your code assumes that the closest point of the first segment is an
+      endpoint. Compute s instead, because this point can lie between the endpoints
+    w-sign: your code uses the vector between the start points with the wrong sign. In
+      `s = (b e - c d) / (a c - b b)`, d is u . w and e is v . w with `w = a0 - b0`
+    d-and-e-swapped: your code swaps the dot products of w with u and v. In `s = (b e -
+      c d) / (a c - b b)`, d is u . w and e is v . w
+    numerator-sign: your code negates s for the infinite lines. The correct value is `(b
+      e - c d) / (a c - b b)` with `w = a0 - b0`
     b-sign: your code uses b = u . v with the wrong sign. At the minimum, `a s - b t + d
       = 0` and `b s - c t + e = 0`
     across-plus: your code divides by `a c + b b`. Divide by the determinant `a c - b b`
@@ -130,8 +129,9 @@ def _(a0, a1, b0, b1):
       t is 0 at the start of the segment
     s-from-the-end: your code subtracts s u from `a1`. Add s u to `a0` instead, because
       s is 0 at the start of the segment
-    unit-directions: your code treats each segment as 1 m long. Use u and v without
-      normalisation, because s and t should be fractions and not lengths in metres
+    unit-directions: your code treats each segment as 1 m long. If u and v are unit
+      vectors, the upper limits of s and t should be the lengths of the segments and not
+      1
     nearest-to-the-middle: your code returns the midpoint of the second segment and the
       point of the first segment that is nearest to this midpoint. Compute t as well,
       because the closest point can be anywhere on the second segment
@@ -151,7 +151,8 @@ def _(a0, a1, b0, b1):
       closest points of the lines are not both on the segments. Test the endpoints of
       the first segment too
     start-where-cut: your code sets s to 0 if the closest points of the lines are not
-      both on the segments. Clamp s to [0, 1] instead
+      both on the segments. Clamp s instead, then recompute and clamp t, and finally
+      recompute and clamp s
     start-where-cut 2: your code sets s to 0 if s is outside [0, 1]. Clamp s instead, so
       that a value above 1 becomes 1
     start-where-cut 3: your code sets s to 0.5 if s is outside [0, 1]. Clamp s to [0, 1]

@@ -115,8 +115,8 @@ def _(rng):
 def _(s, distance, delta_q, radii):
     """no-bound: your code adds the distance in metres to s. First divide the distance
       by the bound on the motion per unit of s
-    signs-kept: your code adds the entries of `delta_q` with their signs, so opposite
-      rotations cancel. Take the absolute value of each entry first
+    signs-kept: your code keeps the signs of `delta_q` in the sum, so opposite rotations
+      cancel. Take the absolute value of each entry first
     signs-kept 2: your code takes the absolute value of the whole sum, so opposite
       rotations cancel. Take the absolute value of each entry of `delta_q` first
     fastest-joint-only: your code uses only the largest product `abs(delta_q[i]) *
@@ -126,14 +126,14 @@ def _(s, distance, delta_q, radii):
       largest radius. Add `abs(delta_q[i]) * radii[i]` over all joints, because their
       motions add up
     norm-of-dq: your code multiplies the norm of `delta_q` by the largest radius, but
-      this product is not an upper bound on the motion. Add `abs(delta_q[i]) * radii[i]`
-      over all joints instead
+      the motion can exceed this product. Add `abs(delta_q[i]) * radii[i]` over all
+      joints instead
     norm-of-products: your code takes the norm of the products `abs(delta_q[i]) *
       radii[i]`. Take the sum of the products instead
     norm-of-products 2: your code multiplies the norm of `delta_q` by the norm of
       `radii`. Add the products `abs(delta_q[i]) * radii[i]` instead
-    largest-reach: your code uses the largest radius for every joint, so its steps are
-      shorter than necessary. Use the radius of each joint
+    largest-reach: your code uses the largest radius for every joint, so its steps can
+      be shorter than necessary. Use the radius of each joint
     reach-forgotten: your code omits `radii`. Multiply each `abs(delta_q[i])` by
       `radii[i]`, because the product bounds the motion in metres
     dq-forgotten: your code omits `delta_q` in the bound. The bound should grow with
@@ -156,10 +156,10 @@ def _(s, distance, delta_q, radii):
       of the motion is collision-free
     standing-still 2: your code returns s if no joint moves. Return 1, because the rest
       of the motion is collision-free
-    goes-back-inside: your code returns a value below s if the arm is already in
+    goes-back-inside: your code does not test for contact, so a negative distance gives
+      a negative step. Return s itself if the distance is 0 or negative
+    goes-on-inside: your code can return a value above s if the arm is already in
       contact. Return s itself
-    goes-on-inside: your code returns a value above s if the arm is already in contact.
-      Return s itself
     stops-inside: your code returns 1 if the arm is already in contact. Return s itself
     stops-inside 2: your code returns 0 if the arm is already in contact. Return s
       itself
@@ -194,8 +194,8 @@ def _(s, distance, delta_q, radii):
       motion remains
     step-capped 2: your code returns the smaller of `1 - s` and the step. Return the
       smaller of 1 and s + step instead
-    max-for-min: your code returns the larger of 1 and s + step, so the result is never
-      below 1. Return the smaller of the two, because the motion ends at s = 1
+    max-for-min: your code returns the larger of 1 and s + step. Return the smaller of
+      the two, because the motion ends at s = 1
     shares-summed: your code adds the steps that each joint alone would allow. Add the
       products `abs(delta_q[i]) * radii[i]` first, and then divide the distance by this
       sum
@@ -203,8 +203,9 @@ def _(s, distance, delta_q, radii):
       whole step
     careful 2: your code uses only a fraction of the step that the bound allows. Use the
       whole step
-    time: your code returns the bound divided by the distance. Divide the distance by
-      the bound, and add this step to s
+    time: your code returns the bound divided by the distance. The step is the distance
+      divided by the bound. Return s plus this step, clamped at 1, and return s itself
+      in contact
     """
     speed = np.abs(delta_q) @ radii
     inside = distance <= 0
@@ -281,7 +282,7 @@ def _(s, distance, delta_q, radii):
 
 @row.wrong
 def far_is_free(s, distance, delta_q, radii):
-    """if the distance is more than half a metre, your code returns 1. Use the bound,
+    """if the distance is large, your code returns 1 without the bound. Use the bound,
     because a long motion can exceed any distance"""
     if distance <= 0:
         return s

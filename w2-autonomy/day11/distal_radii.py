@@ -96,14 +96,14 @@ def _(link_lengths, link_radii):
       have its own bound
     backwards: your code returns the bounds in reverse order. The first bound belongs to
       joint 1
-    sum-from-the-base: your code sums the link lengths from the base to the joint. Sum
-      the link lengths from the joint to each distal link instead
+    sum-from-the-base: your code sums the link lengths from the base to the end of the
+      joint's own link. Sum the link lengths from the joint to each distal link instead
     far-of-its-own: your code adds the radius of the joint's own link to the sum of all
       distal link lengths. Add the radius of each link to the distance to that link, and
       then take the maximum
     far-of-its-own 2: your code adds the radius of the joint's own link to the sum of
-      all distal link lengths. Add the radius of each link to the distance to that link,
-      and then take the maximum
+      all distal link lengths, including the last entry of `link_lengths`. Add the
+      radius of each link to the distance to that link, and then take the maximum
     forwards: your code uses the links between the base and the joint for the bound. Use
       the links distal to the joint instead, because the joint moves these links
     less-the-base: your code uses the farthest point of the whole arm for every joint.
@@ -146,9 +146,9 @@ def _(link_lengths, link_radii):
       entry of `link_radii`
     last-link-forgotten 2: your code omits the last link. Include this link, because the
       farthest point of the arm can be on the last link
-    offsets-to-the-end: your code adds all entries of `link_lengths`, including the last
-      one, to the radius of the last link. Omit the last entry, because no link follows
-      the last link
+    offsets-to-the-end: your code adds the link lengths from the joint on, including the
+      last entry, to the radius of the last link. Omit the last entry, and take the
+      maximum over all distal links
     offset-too-early: your code adds `link_lengths[j]` to the radius of link j itself.
       Add this length only for the links after link j
     far-twice: your code adds the radius of the joint's own link to the bound. Take the

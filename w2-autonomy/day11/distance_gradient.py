@@ -132,8 +132,8 @@ def _(J_space, p, o, link):
       belongs to joint 1
     one-place-late: your code places each entry one position too late. The first entry
       belongs to joint 1
-    backwards: your code returns the entries in reverse order. The first entry belongs
-      to joint 1
+    backwards: your code uses the columns of `J_space` in reverse order. The first
+      column belongs to joint 1
     backwards 2: your code returns the entries of the joints up to the link in reverse
       order. The first entry belongs to joint 1
     own-length: your code normalises the gradient. Return the gradient itself

@@ -124,18 +124,20 @@ def _(qd, grad, distance, gain):
       correction by this value, because the norm of `grad` need not be 1
     divided-by-the-length: your code divides the correction by the norm of `grad`.
       Divide the correction by `grad @ grad` instead
-    pushed-in: your code subtracts the correction, so the arm moves towards the
-      obstacle. Add the correction to `qd`, because the distance increases along `grad`
+    pushed-in: your code subtracts the correction, so the velocity violates the
+      condition even more. Add the correction to `qd`, because the distance increases
+      along `grad`
     all-joints-slowed: your code scales all joint velocities by one factor. Change only
       the component of `qd` along `grad`
     all-joints-slowed 2: your code scales all joint velocities by one factor. Change
       only the component of `qd` along `grad`
-    stops-dead: your code returns 0 if the arm approaches the obstacle too fast. Keep
-      the part of the velocity that the condition allows
-    stops-dead 2: your code returns 0 if the arm approaches the obstacle too fast, and
-      also if `grad` is 0. Keep the part of the velocity that the condition allows
-    part-removed: your code removes the whole component of `qd` along `grad`. Keep the
-      part of this component that the bound allows
+    stops-dead: your code returns 0 if `qd` does not satisfy the condition. Change only
+      the component of `qd` along `grad`
+    stops-dead 2: your code returns 0 if `qd` does not satisfy the condition, even if
+      `grad` is 0. Change only the component of `qd` along `grad`, and return `qd` if
+      `grad` is 0
+    part-removed: your code removes the whole component of `qd` along `grad`. After the
+      correction, `grad @ qd` should be equal to `-gain * distance` and not to 0
     sign-of-the-bound: your code uses `gain * distance` as the bound. The condition is
       `grad @ qd >= -gain * distance`
     distance-sign-lost: your code uses the absolute value of the distance. Keep the
@@ -149,8 +151,8 @@ def _(qd, grad, distance, gain):
       distance by the gain instead
     wrong-side: your code changes only velocities that are already allowed. Change `qd`
       only if `grad @ qd` is below the bound
-    leaving-forbidden: your code also limits velocities away from the obstacle. Limit
-      only velocities towards the obstacle
+    leaving-forbidden: your code also limits velocities away from the obstacle. Change
+      `qd` only if `grad @ qd` is below the bound
     joint-by-joint: your code applies the bound to each joint separately. Apply the
       bound to `grad @ qd`, the rate of change of the distance
     joint-by-joint 2: your code clamps each joint velocity to the bound. Apply the bound
@@ -159,10 +161,12 @@ def _(qd, grad, distance, gain):
       largest absolute entry of `grad`. Change `qd` along `grad` instead, because this
       is the smallest change that satisfies the bound
     slope-unit: your code normalises `grad`, but it does not divide the bound by the
-      norm of `grad`. Use `grad` itself instead
-    only-inside: your code limits the velocity only if the distance is negative. Limit
-      the velocity at every distance
-    standing-still: your code divides by 0 if `grad` is 0. Return `qd` in this case
+      norm of `grad`. Divide the bound by this norm too, because the condition contains
+      `grad` itself
+    only-inside: your code limits the velocity only if the distance is not positive.
+      Limit the velocity at every distance
+    standing-still: your code divides by 0 if `grad` is 0 and the distance is negative.
+      Return `qd` if `grad` is 0
     part-alone: your code returns only the component along `grad`. Keep the other
       components of `qd` too
     left-where-it-overlaps: your code returns `qd` if the distance is not positive.
@@ -171,10 +175,10 @@ def _(qd, grad, distance, gain):
     stopped-where-it-overlaps: your code returns 0 if the distance is not positive.
       Apply the correction to `qd` instead, because it moves the arm away from the
       obstacle
-    no-way-out: your code clamps a negative distance to 0, so the arm does not move away
+    no-way-out: your code clamps a negative distance to 0, so the arm need not move away
       from an obstacle that it overlaps. Use the negative distance
-    coming-near: your code changes every velocity towards the obstacle. Return `qd`
-      unchanged if it satisfies the bound
+    coming-near: your code changes `qd` if `grad @ qd` is negative. Change `qd` if `grad
+      @ qd` is below the bound instead
     by-the-sizes: your code compares the absolute values of `grad @ qd` and the bound.
       Keep the signs, because a fast motion away from the obstacle is allowed
     half-of-it: your code adds only half of the correction to `qd`. Add the whole
@@ -203,7 +207,8 @@ def _(qd, grad, distance, gain):
       motion reduces the distance. Change `qd` along the whole of `grad` instead,
       because this is the smallest change that satisfies the bound
     those-that-come-near 2: your code stops the joints whose motion reduces the
-      distance. Keep the part of their motion that the condition allows
+      distance. Change `qd` along `grad` instead, because this is the smallest change
+      that satisfies the bound
     rate-added: your code adds `grad @ qd` to the bound. Subtract `grad @ qd` from the
       bound instead
     lack-alone: your code returns the correction alone. Add the correction to `qd`
