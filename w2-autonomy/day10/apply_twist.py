@@ -107,8 +107,8 @@ row.of_argument(
     "xi",
     Change(
         "unit-screw",
-        "your code divides xi by its norm. Use xi itself, because the norm of omega "
-        "is the rotation angle",
+        "your code divides xi by its norm. The rotation angle should be the norm of "
+        "omega itself",
         lambda xi: xi / (np.linalg.norm(xi) or 1.0),
     ),
 )

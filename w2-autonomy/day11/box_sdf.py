@@ -83,8 +83,9 @@ def _(p, half_extents):
     depth-added-outside: outside the box, your code adds the largest entry of `abs(p) -
       half_extents` to the norm. Add this entry only inside the box, where it is
       negative
-    inside-by-the-norm: inside the box, your code returns minus the norm of the three
-      distances to the faces. Return minus the smallest of these distances instead
+    inside-by-the-norm: inside the box, your code returns minus the norm of
+      `half_extents - abs(p)`. Return minus its smallest entry instead, which is the
+      distance to the nearest face
     farthest-face-inside: inside the box, your code uses the smallest entry of `abs(p) -
       half_extents`. Use the largest entry instead, which belongs to the nearest face
     farthest-face-inside 2: your code adds the smallest entry of `abs(p) - half_extents`
@@ -128,10 +129,12 @@ def _(p, half_extents):
     largest-with-max: your code adds the largest entry of `abs(p) - half_extents`
       outside the box instead of inside. Add this entry only inside the box, where it is
       negative
-    sum-inside: inside the box, your code returns minus the sum of the three distances
-      to the faces. Return minus the smallest of these distances instead
-    mean-inside: inside the box, your code returns minus the mean of the three distances
-      to the faces. Return minus the smallest of these distances instead
+    sum-inside: inside the box, your code returns minus the sum of the entries of
+      `half_extents - abs(p)`. Return minus the smallest entry instead, which is the
+      distance to the nearest face
+    mean-inside: inside the box, your code returns minus the mean of the entries of
+      `half_extents - abs(p)`. Return minus the smallest entry instead, which is the
+      distance to the nearest face
     one-number-inside: inside the box, your code always returns -1. Return minus the
       distance to the nearest face instead
     least-half-inside: inside the box, your code always returns minus the smallest half
@@ -150,10 +153,11 @@ def _(p, half_extents):
       nearest face
     cut-at-one: your code clamps the entries of `abs(p) - half_extents` at 1. Omit this
       clamp, because the distance can be larger than 1 m
-    corner-or-face: near an edge, your code returns the larger of the two positive
-      entries of `abs(p) - half_extents`. Return the norm of both entries instead
-    two-of-three: near a corner, your code uses only the two largest entries of `abs(p)
-      - half_extents`. Use all three entries
+    corner-or-face: if p lies beyond two faces, your code returns the larger of the two
+      positive entries of `abs(p) - half_extents`. Return the norm of both entries
+      instead
+    two-of-three: if p lies beyond three faces, your code uses only the two largest
+      entries of `abs(p) - half_extents`. Use all three entries
     first-two-only: your code returns only the largest entry of `abs(p) - half_extents`
       if the point lies beyond a z face. Return the norm of the positive entries instead
     mean-square: outside the box, your code returns the root of the mean of the squares.
@@ -161,8 +165,8 @@ def _(p, half_extents):
     smallest-taken-off: your code subtracts the smallest absolute value of the entries
       of `abs(p) - half_extents`, even outside the box. Subtract this value only inside
       the box
-    edges-negative: your code returns a negative distance outside the box, near an edge
-      or a corner. The signed distance should be positive everywhere outside the box
+    edges-negative: your code returns a negative distance if p lies beyond two or three
+      faces. The signed distance should be positive everywhere outside the box
     cut-at-both: your code clamps p to the box and returns the norm of the clamped
       point. Outside the box, return the distance from p to the clamped point instead.
       Inside the box, return minus the distance to the nearest face

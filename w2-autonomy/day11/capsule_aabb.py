@@ -78,12 +78,15 @@ def _(a0, a1, r):
       around `a1`. Use `a0` as well
     along-the-axis: your code adds the radius only along the direction of the axis. Add
       the radius along x, y and z, because the capsule contains a sphere at each end
-    whole-ends-sorted: your code uses all coordinates of one endpoint as the lower
-      corner. Take the minimum of each coordinate separately
-    whole-ends-sorted 2: your code uses all coordinates of one endpoint as the lower
-      corner. Take the minimum of each coordinate separately
-    whole-ends-sorted 3: your code uses all coordinates of one endpoint as the lower
-      corner. Take the minimum of each coordinate separately
+    whole-ends-sorted: your code uses one endpoint for the lower corner and the other
+      endpoint for the upper corner. Take the minimum and the maximum of each coordinate
+      separately
+    whole-ends-sorted 2: your code uses one endpoint for the lower corner and the other
+      endpoint for the upper corner. Take the minimum and the maximum of each coordinate
+      separately
+    whole-ends-sorted 3: your code uses one endpoint for the lower corner and the other
+      endpoint for the upper corner. Take the minimum and the maximum of each coordinate
+      separately
     cube-in-the-ball: your code adds `r / sqrt(3)`, which gives the cube inscribed in
       the sphere at each end. Add `r` instead, because the box must contain both spheres
     radius-times: your code multiplies the corners by `1 - r` and `1 + r`. Subtract and

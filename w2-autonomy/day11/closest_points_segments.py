@@ -73,8 +73,9 @@ def _(rng):
 
 @row.wrongs
 def _(a0, a1, b0, b1):
-    """not-clamped: your code does not clamp s and t. Clamp both to [0, 1], because
-      otherwise the points can lie outside the segments
+    """not-clamped: your code does not clamp s and t. Clamp s, then recompute and clamp
+      t, and finally recompute and clamp s, because otherwise the points can lie outside
+      the segments
     clamped-apart: your code clamps s and t independently. If one parameter is clamped,
       the optimal value of the other can change. Clamp s, then recompute and clamp t,
       and finally recompute and clamp s

@@ -65,7 +65,7 @@ def _(link_lengths, link_radii):
     next-only: your code uses the radius of the next link and ignores the links after
       it. Include these links too, because the joint also moves them
     from-the-base: your code measures the distances from the base. Measure the distances
-      from joint i to its distal links instead
+      from joint i to its distal links instead, and take the maximum
     offset-one-late: for joint i, your code uses `link_lengths[i + 1]`. Use
       `link_lengths[i]` instead, the distance from link i to the next link
     offset-of-the-last: your code adds the last entry of `link_lengths`. Omit this
@@ -76,11 +76,13 @@ def _(link_lengths, link_radii):
     offset-to-its-own: your code adds the link length to the radius of the joint's own
       link. Add this length only for the links after the joint's own link
     far-forgotten: your code omits `link_radii`, so the bound contains only link
-      lengths. Add the radius of each link to the distance to that link's origin
+      lengths. Add the radius of each link to the distance to that link, and then take
+      the maximum
     offsets-forgotten: your code omits `link_lengths`, so each bound is only a link
-      radius. Add the lengths between the joint and each distal link
-    all-summed: your code adds the radii of all distal links. Use the radius of only one
-      link, because the farthest point lies on only one link
+      radius. Add the lengths between the joint and each distal link before you take the
+      maximum
+    all-summed: your code adds the radii of all distal links. Add the radius of each
+      link to the distance to that link instead, and then take the maximum
     largest-far: your code adds the largest link radius of the arm to the distance to
       the last link. Add the radius of each link to the distance to that link, and then
       take the maximum
@@ -97,7 +99,8 @@ def _(link_lengths, link_radii):
     backwards: your code returns the bounds in reverse order. The first bound belongs to
       joint 1
     sum-from-the-base: your code sums the link lengths from the base to the end of the
-      joint's own link. Sum the link lengths from the joint to each distal link instead
+      joint's own link. For each distal link, add its radius to the link lengths from
+      the joint to this link instead, and then take the maximum
     far-of-its-own: your code adds the radius of the joint's own link to the sum of all
       distal link lengths. Add the radius of each link to the distance to that link, and
       then take the maximum
