@@ -236,9 +236,11 @@ def _no_cut(mine: Array, path: Array, world: Array, where: str) -> Finding | Non
         return Finding("not-its-points", f"{says}Shortcuts remove points and add none.")
     at = [int(row[0]) for row in rows]
     if not at or at[0] != 0:
-        return Finding("start-lost", f"The first point of the path is missing {where}.")
+        says = f"Your result does not begin with the path's first point {where}."
+        return Finding("start-lost", says)
     if at[-1] != len(path) - 1:
-        return Finding("end-lost", f"The last point of the path is missing {where}.")
+        says = f"Your result does not end with the path's last point {where}."
+        return Finding("end-lost", says)
     if any(j <= i for i, j in pairwise(at)):
         return Finding(
             "other-order", f"Some points are repeated or in the wrong order {where}."

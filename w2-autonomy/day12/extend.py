@@ -151,8 +151,8 @@ def _(tree, sample, step, world):
       the edge from the nearest node to the new point instead
     edge-to-the-sample: your code tests the edge to the sample. Test only the edge to
       the new point
-    edge-of-two-steps: your code tests an edge that is two steps long. Test only the
-      edge to the new point, which is at most one step long
+    edge-of-two-steps: your code tests an edge that is twice as long as the edge to the
+      new point. Test only the edge to the new point
     edge-on-from-there: your code tests the edge from the new point to the sample. Test
       the edge from the nearest node to the new point instead
     hit-for-free: your code negates the third result. Return True if the edge is free
@@ -162,8 +162,9 @@ def _(tree, sample, step, world):
       the nearest node instead
     away: your code extends the tree away from the sample. Move from the nearest node in
       the direction `sample - node`
-    from-the-sample: your code steers from the sample to the nearest node. Steer from
-      this node to the sample instead
+    from-the-sample: your code steers from the sample to the nearest node, and it tests
+      the edge from the sample. Steer from the nearest node to the sample instead, and
+      test the edge from this node
     from-the-sample 2: your code steers from the sample to the nearest node. Steer from
       this node to the sample instead
     farthest: your code extends the tree from the node farthest from the sample. Extend
@@ -191,12 +192,12 @@ def _(tree, sample, step, world):
       Test every edge
     ends-only: your code tests only the endpoints of the edge. Test the points between
       them too
-    twice-a-step: your code returns a point two steps from the nearest node. Limit this
-      distance to one step
-    half-a-step: your code moves only half a step from the nearest node. Use the whole
-      step
-    unit-step: your code moves a distance of 1 from the nearest node. Use the argument
-      `step` as the distance instead
+    twice-a-step: your code returns a point up to two steps from the nearest node. Limit
+      this distance to one step
+    half-a-step: your code moves at most half a step from the nearest node. Use the
+      whole step
+    unit-step: your code moves a distance of at most 1 from the nearest node. Use the
+      argument `step` as the limit instead
     added-twice: your code adds the result of `steer` to the node. Return the result
       itself, because `steer` returns a point and not a displacement
     nearest-of-the-free: your code selects the nearest node among the nodes whose edge

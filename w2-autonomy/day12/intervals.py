@@ -142,8 +142,7 @@ OPTIONS = [
             ("one-for-z2", "1 / (4 n^2)", lambda z, n: 1 / (4 * n**2)),
             ("n2-forgotten", "z^2 / 4", lambda z, n: z**2 / 4),
             ("two-n", "z^2 / (2 n)", lambda z, n: z**2 / (2 * n)),
-            ("taken-off", "-z^2 / (4 n^2), with the absolute value of the sum",
-             lambda z, n: -(z**2) / (4 * n**2)))
+            ("taken-off", "-z^2 / (4 n^2)", lambda z, n: -(z**2) / (4 * n**2)))
     ]),
     *_each("below", [
         (slug, f"your code {does}. Divide both by 1 + z^2 / n", of)

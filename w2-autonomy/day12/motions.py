@@ -184,12 +184,12 @@ OPTIONS = [
                               "backward pass with sd^2 = 0 instead of `sd2_max`",
            {"last": False}),
     *(Option(slug, says, {"passes": one}) for slug, says, one in (
-        ("no-braking", "your motion does not stop at the end. Limit sd^2 by a "
+        ("no-braking", "your motion need not stop at the end. Limit sd^2 by a "
                        "backward pass that begins with sd^2 = 0 at the last point",
          "forward"),
-        ("backward-pass-only", "your code limits sd^2 only by the braking before the "
-                               "end. Add a forward pass that begins with sd^2 = 0 at "
-                               "the first point", "back"),
+        ("backward-pass-only", "your code omits the forward pass, so the motion need "
+                               "not start at rest. Add a forward pass that begins "
+                               "with sd^2 = 0 at the first point", "back"),
         ("smaller-of-two-passes", "your code computes the two passes independently and "
                                   "takes the minimum. Limit sd^2 in the forward pass "
                                   "by the result of the backward pass instead",
@@ -267,7 +267,7 @@ OPTIONS = [
         ("x-max-rooted", "your code takes the square root of `sd2_max`. Compare sd^2 "
                          "with `sd2_max` itself", np.sqrt))),
     *(Option(slug, says, {"stands": of}) for slug, says, of in (
-        ("cannot-stand-goes", "your code returns a nonzero motion although gravity "
+        ("cannot-stand-goes", "your code can return a nonzero motion although gravity "
                               "alone exceeds a torque limit at some point. Return "
                               "zeros in this case, because the arm cannot hold still "
                               "at that point",
@@ -319,8 +319,8 @@ OPTIONS = [
                                "the backward pass with 0 at this point",
          lambda x: np.append(x[:-1], 0.0)),
         ("mirrored", "your code takes the minimum of the motion and its mirror image. "
-                     "Compute both passes instead, because the limits differ in the "
-                     "other direction",
+                     "Compute both passes instead, because the limits can differ in "
+                     "the other direction",
          lambda x: np.minimum(x, x[::-1])))),
 ]  # fmt: skip
 

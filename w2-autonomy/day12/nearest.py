@@ -139,7 +139,7 @@ def _(tree, q):
       nearest to q instead
     q-added: your code adds q to the nodes. Subtract q from the nodes instead
     most-alike: your code compares the dot products of the nodes with q. Compare the
-      distances instead, because a dot product also grows with the norm of the node
+      distances instead, because a dot product also depends on the norm of the node
     place-of-the-distance: your code returns the rank of the root's distance among all
       distances. Return the index of the smallest distance instead
     counted-from-the-end: your code counts the index from the end of the tree. Count the
@@ -167,18 +167,18 @@ def _(tree, q):
       smallest distance so far
     first-that-is-nearer: your code returns the first node that is nearer to q than the
       root is. Return the nearest of all nodes
-    rounded: your code rounds the distances before it compares them. Omit the rounding,
-      because it can make two different distances equal
-    rounded 2: your code rounds the distances before it compares them. Omit the
-      rounding, because it can make two different distances equal
+    rounded: your code rounds the distances or their squares before it compares them.
+      Omit the rounding, because it can make two different distances equal
+    rounded 2: your code rounds the distances or their squares before it compares them.
+      Omit the rounding, because it can make two different distances equal
     root-left-out: your code skips the root (row 0). Include the root, because the root
       can be the nearest node
     root-left-out 2: your code skips the root (row 0) and counts the other rows from 0.
       Include the root, whose index is 0
     last-left-out: your code skips the last row. Include this row, because the last node
       can be the nearest
-    over-all-numbers: your code searches for the minimum over all entries of the tree.
-      Sum the squares along axis 1 first, so that each row has one distance
+    over-all-numbers: your code selects the smallest of all squared differences. Sum the
+      squares along axis 1 first, so that each row has one distance
     sum-of-columns: your code sums the squares along axis 0. Sum the squares along axis
       1 instead, because each row is a node
     itself-left-out: your code skips a node that equals q. Include this node, because

@@ -103,7 +103,8 @@ def together(
         some = list(alone.values())[:2]
         says = some[0].says
         if len(some) > 1:
-            says = f"your code has one of two mistakes. The first possibility: {says}. "
+            says = "each of two mistakes would explain your result. The first "
+            says += f"possibility: {some[0].says}. "
             says += f"The second possibility: {some[1].says}"
         this = "either" if len(some) > 1 else "this"
         how = f"The reference solution with {this} mistake "

@@ -188,12 +188,12 @@ def _(a, b, c, limits, sd):
       + c` from both limits instead
     rest-not-divided: your code divides the torque limits by `a`, but not `b * sd**2 +
       c`. Divide both by `a`
-    one-sided: your code adds `b * sd**2 + c` to the lower torque limit. Subtract this
-      term from both limits
+    one-sided: for the lower bound of each joint, your code adds `b * sd**2 + c` to the
+      torque limit. Subtract this term for both bounds
     size-of-rest: your code reduces both torque limits by `abs(b * sd**2 + c)`. Subtract
       `b * sd**2 + c` with its sign from both limits instead
-    widest: your code takes the union of the joints' intervals. Take the intersection
-      instead
+    widest: your code returns the smallest lower bound and the largest upper bound of
+      the joints. Return the largest lower bound and the smallest upper bound instead
     least-of-both: your code uses the minimum of the joints' lower bounds as the lower
       bound. Use their maximum instead
     first-joint-only: your code uses only the first joint. Use all joints, because every
@@ -217,12 +217,13 @@ def _(a, b, c, limits, sd):
       them unswapped, because a lower bound above the upper bound means that no sdd is
       permitted
     none-is-zero: your code returns (0, 0) if no sdd is permitted, although this result
-      permits sdd = 0. Return the bounds unchanged, with the lower bound above the upper
-      bound
+      permits sdd = 0. Return the computed bounds, or (inf, -inf) if a joint with `a` =
+      0 exceeds its limit
     none-is-zero 2: your code returns (0, 0) if a joint with `a` = 0 exceeds its limit,
       although this result permits sdd = 0. Return (inf, -inf) instead
-    none-is-one: your code reduces the lower bound to the upper bound if no sdd is
-      permitted. Return the bounds unchanged, with the lower bound above the upper bound
+    none-is-one: your code reduces the lower bound to the upper bound if the joints
+      permit no common sdd. Return the bounds unchanged, with the lower bound above the
+      upper bound
     zero-stops-all: your code returns an empty interval for a joint with `a` = 0 within
       its torque limit. Skip such a joint, because it does not limit sdd
     zero-row-ignored: your code ignores a joint with `a` = 0 that exceeds its torque
@@ -250,9 +251,10 @@ def _(a, b, c, limits, sd):
     last-joint-only 2: your code returns the bounds of the last joint. Return the
       largest lower bound and the smallest upper bound of all joints. In a loop, keep
       the bounds of the earlier joints
-    never-narrowed: your bounds are always -inf and inf. Return the largest lower bound
-      and the smallest upper bound of the joints
-    zero-kept-in: your code returns an interval that always contains 0. Return the
+    never-narrowed: your bounds are -inf and inf, unless a joint with `a` = 0 exceeds
+      its limit. Return the largest lower bound and the smallest upper bound of the
+      joints
+    zero-kept-in: your code extends the interval so that it contains 0. Return the
       bounds themselves, because sdd = 0 is not always permitted
     six-joints: your code uses only the first six joints. Use all joints, because the
       arm can have any number of joints
@@ -377,7 +379,7 @@ def _(a, b, c, limits, sd):
 @row.wrong
 def zero_divides(a, b, c, limits, sd):
     """your code divides by 0 for a joint with `a` = 0. Skip such a joint if its torque
-    is within its limit, because it does not limit sdd"""
+    is within its limit, and return (inf, -inf) otherwise"""
     with np.errstate(all="ignore"):
         ends = np.sort((np.array([-limits, limits]) - b * sd**2 - c) / a, axis=0)
     return np.array([ends[0].max(), ends[1].min()])

@@ -197,16 +197,17 @@ OPTIONS = [
     *(Option("few-samples", f"your code uses only the first {n} samples. Use all "
                             "samples",
              {"used": lambda some, n=n: some[:n]}) for n in (5, 10, 20)),
-    Option("connect-one-step", "your code adds only one edge to the other tree. Add "
-                               "edges until an edge is blocked or the new node is "
-                               "reached",
+    Option("connect-one-step", "your code adds only one edge to the other tree for "
+                               "each sample. Add edges until an edge is blocked or "
+                               "the new node is reached",
            {"approach": "one"}),
     Option("connect-to-the-sample", "your code extends the other tree towards the "
                                     "sample. Extend it towards the new node instead",
            {"approach": "sample"}),
-    Option("joined-at-the-sample", "your search ends when the other tree reaches the "
-                                   "sample. End it only when the other tree reaches "
-                                   "the new node of the first tree",
+    Option("joined-at-the-sample", "your code extends the other tree towards the "
+                                   "sample and ends the search there. Extend it "
+                                   "towards the new node of the first tree instead, "
+                                   "and end the search at this node",
            {"approach": "sample", "meets": "sample"}),
     Option("connect-to-the-root", "your code extends the other tree towards the root "
                                   "of the first tree. Extend it towards the new node "
@@ -217,8 +218,8 @@ OPTIONS = [
                                   "instead",
            {"approach": "jump"}),
     *(Option("connect-few-edges", f"your code adds at most {n} edges to the other "
-                                  f"tree. Add edges until an edge is blocked or the "
-                                  f"new node is reached",
+                                  f"tree for each sample. Add edges until an edge is "
+                                  f"blocked or the new node is reached",
            {"tries": n})
       for n in (2, 3, 4, 5, 10)),
     Option("greedy-samples", "your code adds several edges towards the sample. Add "
@@ -242,19 +243,19 @@ OPTIONS = [
            {"blocked": "on"}),
     Option("blocked-ends", "your code stops at the first blocked sample. Continue with "
                            "the next sample", {"blocked": "stop"}),
-    Option("near-enough", "your search ends when the trees are within one step of "
-                          "each other. End it only when the other tree reaches the "
-                          "new node",
+    Option("near-enough", "your search ends when the other tree is within one step "
+                          "of the new node. End it only when the other tree reaches "
+                          "the new node",
            {"meets": "near"}),
-    *(Option("stride", f"your code adds edges of {x:g} steps. Limit each edge to one "
-                       f"step",
+    *(Option("stride", f"your code limits each edge to {x:g} steps. The correct limit "
+                       f"is one step",
            {"stride": x, "far": x})
       for x in (0.5, 2.0)),
-    *(Option("stride-of-the-other", f"your code adds edges of {x:g} steps to the other "
-                                    f"tree. Limit each edge to one step",
+    *(Option("stride-of-the-other", f"your code limits the edges of the other tree to "
+                                    f"{x:g} steps. The correct limit is one step",
              {"far": x}) for x in (0.5, 2.0)),
-    *(Option("stride-of-the-first", f"your code adds edges of {x:g} steps towards the "
-                                    f"samples. Limit each edge to one step",
+    *(Option("stride-of-the-first", f"your code limits the edges towards the samples "
+                                    f"to {x:g} steps. The correct limit is one step",
              {"stride": x}) for x in (0.5, 2.0)),
     Option("every-other-sample", "your code uses only every second sample. Use all "
                                  "samples",

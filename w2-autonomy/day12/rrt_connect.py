@@ -23,8 +23,8 @@ row = Row(
             r"\bwhile\b|\bfor\b",
             "stopped",
             "A loop does not end. If the other tree grows towards the *sample*, it "
-            "reaches the sample and then adds free edges of length 0, so it never "
-            "reaches the *new node*. Grow it towards the new node, compare its last "
+            "may reach the sample and then add free edges of length 0 without ever "
+            "reaching the *new node*. Grow it towards the new node, compare its last "
             "node with the new node, and leave the loop if an edge is not free. When "
             "you follow the parents to the root, stop at the root: no node may be its "
             "own parent.",
@@ -118,13 +118,13 @@ def _(start, goal, world, samples, step):
       the goal's tree towards samples 1, 3, 5 and so on
     goal-first: your code extends the goal's tree towards sample 0. Extend the start's
       tree towards sample 0 instead
-    connect-one-step: your code adds only one edge to the other tree. Add edges until an
-      edge is blocked or the new node is reached
+    connect-one-step: your code adds only one edge to the other tree for each sample.
+      Add edges until an edge is blocked or the new node is reached
     connect-to-the-sample: your code extends the other tree towards the sample. Extend
       it towards the new node instead
     greedy-samples: your code adds several edges towards the sample. Add only one edge
-    one-tree: your code extends only the start's tree and tests the edge from each new
-      node to the goal. Extend a second tree from the goal
+    one-tree: your code extends only the start's tree, and it tests the edge to the goal
+      from each new node within one step of the goal. Extend a second tree from the goal
     connect-in-one-jump: your code connects the other tree by a single edge of any
       length. Add edges of at most one step instead
     parent-is-the-newest: your path contains every node of both trees. Store the index

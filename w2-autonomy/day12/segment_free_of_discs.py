@@ -216,11 +216,12 @@ def _others(a, b, discs, part, away):
 )
 def _(a, b, discs):
     """line-for-segment: your code treats the edge as an infinite line, so a disc beyond
-      an endpoint can block the edge. Clamp the parameter of the nearest point to [0, 1]
-    only-one-end-cut: your code extends the edge beyond `a` without limit. Clamp the
-      parameter of the nearest point to [0, 1], because the edge begins at `a`
-    only-one-end-cut 2: your code extends the edge beyond `b` without limit. Clamp the
-      parameter of the nearest point to [0, 1], because the edge ends at `b`
+      an endpoint can block the edge. Only points with a parameter from 0 to 1 lie on
+      the edge
+    only-one-end-cut: your code extends the edge beyond `a` without limit. Points with a
+      parameter below 0 do not lie on the edge
+    only-one-end-cut 2: your code extends the edge beyond `b` without limit. Points with
+      a parameter above 1 do not lie on the edge
     ends-only: your code tests only the endpoints of the edge. Test the whole edge,
       because it can cross a disc between its endpoints
     new-end-only: your code tests only the endpoint `b`. Test the whole edge
@@ -238,9 +239,9 @@ def _(a, b, discs):
     points-only 4: your code tests only some points of the edge. Use the point of the
       edge nearest to each centre instead, because a small disc can lie between two
       tested points
-    points-only 5: your code misses discs that cover only a small part of the edge.
+    points-only 5: your code can miss discs that cover only a small part of the edge.
       Compute the point of the edge nearest to each centre exactly
-    points-only 6: your code misses discs that cover only a small part of the edge.
+    points-only 6: your code can miss discs that cover only a small part of the edge.
       Compute the point of the edge nearest to each centre exactly
     inside-is-free: your code tests only whether the edge crosses the boundary of a
       disc. Report an edge inside a disc as blocked too, because the whole disc is an
@@ -285,8 +286,8 @@ def _(a, b, discs):
       subtracting `a`. Subtract `a` from the centre, because the edge begins at `a`
     other-way: your code measures the parameter from one endpoint of the edge, but it
       applies the parameter from the other endpoint. Use the same endpoint in both steps
-    box: your code treats the discs as squares, because it compares each coordinate
-      difference with the radius separately. Use the Euclidean distance instead
+    box: your code compares each coordinate difference with the radius separately. Use
+      the Euclidean distance instead
     foot-without-a: your code computes the nearest point relative to `a`, but it does
       not add `a`. Add `a` before you subtract this point from the centre
     cut-to-one: your code clamps the distance along the edge to [0, 1]. Clamp it to the
@@ -296,8 +297,8 @@ def _(a, b, discs):
     distance-to-the-start: for a disc beyond `b`, your code uses the distance to `a`.
       Use the distance to `b` instead, because `b` is the nearest point of the edge
     first-crossing-only: your code tests only the first intersection of the line with
-      the boundary of the disc. Test the second intersection too, because an edge that
-      starts in the disc can contain only the second
+      the boundary of the disc. Test whether `a` lies in the disc too, because an edge
+      that starts in the disc does not contain this intersection
     some-crossing: your code tests whether the infinite line meets the disc. Use the
       nearest point of the edge instead, because both intersections can lie beyond an
       endpoint
@@ -310,14 +311,14 @@ def _(a, b, discs):
       the edge as free in this case
     touching-between: if an edge touches a disc between its endpoints, your code reports
       the edge as free. Report such an edge as blocked
-    points-only 7: your code misses discs that cover only a small part of the edge.
+    points-only 7: your code can miss discs that cover only a small part of the edge.
       Compute the point of the edge nearest to each centre exactly
     points-only 8: your code tests only some points of the edge. Use the point of the
       edge nearest to each centre instead, because a small disc can lie between two
       tested points
-    points-only 9: your code misses discs that cover only a small part of the edge.
+    points-only 9: your code can miss discs that cover only a small part of the edge.
       Compute the point of the edge nearest to each centre exactly
-    points-only 10: your code misses discs that cover only a small part of the edge.
+    points-only 10: your code can miss discs that cover only a small part of the edge.
       Compute the point of the edge nearest to each centre exactly
     """
     along = b - a
@@ -380,9 +381,9 @@ def _(a, b, discs):
 
 @row.wrong(hidden="the lab has no edge of no length")
 def divided_by_nothing(a, b, discs):
-    """your code always reports an edge of length 0 as blocked. Treat such an edge as a
-    point. If its parameter is 0 / 0 = NaN, each comparison with the distance is
-    False"""
+    """if there are discs, your code reports every edge of length 0 as blocked. Treat
+    such an edge as a point. If its parameter is 0 / 0 = NaN, each comparison with the
+    distance is False"""
     along = b - a
     with np.errstate(all="ignore"):
         part = (discs[:, :2] - a) @ along / (along @ along)

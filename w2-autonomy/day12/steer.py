@@ -82,11 +82,11 @@ def _(q, target, step):
       away. Stop at the target
     no-limit: your code returns the target even if it is more than one step away. Limit
       the displacement to one step
-    fraction: your code multiplies the displacement by `step`. Divide the displacement
-      by its norm first, because `step` is a length and not a fraction
+    fraction: your code multiplies the displacement by `step`. The distance from q
+      should be `step`, or the distance to the target if this is smaller
     fraction-at-most-all: your code multiplies the displacement by the smaller of `step`
-      and 1. Divide the displacement by its norm first, because `step` is a length and
-      not a fraction
+      and 1. The distance from q should be `step`, or the distance to the target if this
+      is smaller
     not-unit: if the target is more than one step away, your code multiplies the
       displacement by `step`. Divide the displacement by its norm first, because `step`
       is a length and not a fraction
@@ -100,9 +100,10 @@ def _(q, target, step):
       otherwise
     direction-only 2: your code returns the displacement from q to the new point. Add
       this displacement to q
-    away: your code moves away from the target. Use `target - q` as the direction
-    away 2: if the target is more than one step away, your code moves away from it. Use
-      `target - q` as the direction
+    away: your code moves away from the target. The direction to the target is `target -
+      q`
+    away 2: if the target is more than one step away, your code moves away from it. The
+      direction to the target is `target - q`
     stays-when-near: your code returns q if the target is within one step. Return the
       target instead
     always-q: your code always returns q. Move from q towards the target by at most one
@@ -115,7 +116,7 @@ def _(q, target, step):
       distance. Use the Euclidean norm instead
     unit-step: your code adds a displacement of norm 1 to q. Use the argument `step` as
       the norm instead
-    half-a-step: your code moves only half a step. Use the whole step
+    half-a-step: your code moves at most half a step. Use the whole step
     limit-the-other-way: your code returns the target if it is more than one step away,
       and it takes a full step otherwise. Swap the two cases
     from-the-origin: your code starts the step at the origin. Start the step at q

@@ -110,19 +110,19 @@ def bobrow(a, b, c, limits, sd2_max):
 
 @row.wrongs
 def _(a, b, c, limits, sd2_max):
-    """no-braking: your motion does not stop at the end. Limit sd^2 by a backward pass
+    """no-braking: your motion need not stop at the end. Limit sd^2 by a backward pass
       that begins with sd^2 = 0 at the last point
-    no-braking 2: your motion stops abruptly at the end. Limit sd^2 by a backward pass
-      that begins with sd^2 = 0 at the last point
+    no-braking 2: your motion can stop abruptly at the end. Limit sd^2 by a backward
+      pass that begins with sd^2 = 0 at the last point
     end-not-at-rest: your motion need not be at rest at the end. Start the backward pass
       with sd^2 = 0 instead of `sd2_max`
     start-not-at-rest: your code starts the motion with the largest sd^2 from which the
       arm can stop. Start it with sd^2 = 0 instead
-    backward-pass-only: your code limits sd^2 only by the braking before the end, so the
-      motion does not start at rest. Add a forward pass that begins with sd^2 = 0 at the
-      first point
-    backward-pass-only 2: your sd^2 jumps from 0 to its maximum after the first point.
-      Add a forward pass that begins with sd^2 = 0 at the first point
+    backward-pass-only: your code omits the forward pass, so the motion need not start
+      at rest. Add a forward pass that begins with sd^2 = 0 at the first point
+    backward-pass-only 2: after the first point, your sd^2 jumps from 0 to the largest
+      value from which the arm can stop. Add a forward pass that begins with sd^2 = 0 at
+      the first point
     smaller-of-two-passes: your code computes the two passes independently and takes the
       minimum. Limit sd^2 in the forward pass by the result of the backward pass instead
     ds-for-2-ds: your code adds `ds * sdd` to sd^2 in each step. Add `2 * ds * sdd`
@@ -146,9 +146,9 @@ def _(a, b, c, limits, sd2_max):
       it reaches a point with a low limit
     gravity-forgotten: your code omits gravity from the torques. Include the term `c`
     coriolis-forgotten: your code omits `b * sd**2` from the torques. Include this term
-    cannot-stand-goes: your code returns a nonzero motion although gravity alone exceeds
-      a torque limit at some point. Return zeros in this case, because the arm cannot
-      hold still at that point
+    cannot-stand-goes: your code can return a nonzero motion although gravity alone
+      exceeds a torque limit at some point. Return zeros in this case, because the arm
+      cannot hold still at that point
     few-bisections: your bisection stops too early, so its result is not accurate
       enough. Use more iterations
     few-bisections 2: your bisection stops too early, so its result is not accurate

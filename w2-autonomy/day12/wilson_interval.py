@@ -68,10 +68,10 @@ def _(successes, n):
       = n
     wald-cut: your code returns the Wald interval, clamped to [0, 1]. Use the Wilson
       interval instead, because the width of a Wald interval is 0 for k = 0 and k = n
-    centre-not-moved: your code omits the term z^2 / (2 n) from the centre. Add this
-      term to k / n before the division by 1 + z^2 / n
-    width-without-z2: your code omits the term z^2 / (4 n^2) under the square root. Add
-      this term, because the width should be positive even for k = 0
+    centre-not-moved: your code omits the term z^2 / (2 n) from the centre. The correct
+      centre is (k / n + z^2 / (2 n)) / (1 + z^2 / n)
+    width-without-z2: your code omits the term z^2 / (4 n^2) under the square root. With
+      this term, the width is positive even for k = 0
     not-divided: your code does not divide the centre and the half-width by 1 + z^2 / n.
       Divide both by this factor
     middle-not-divided: your code divides only the half-width by 1 + z^2 / n. Divide the
@@ -118,8 +118,9 @@ def _(successes, n):
       (k + 2) / (n + 4) and n + 4 trials. Use the Wilson interval instead
     plus-four 2: your code returns the Agresti-Coull interval: the Wald interval with p
       = (k + z^2 / 2) / (n + z^2) and n + z^2 trials. Use the Wilson interval instead
-    plus-four 3: your code returns the Agresti-Coull interval: the Wald interval with p
-      = (k + z^2 / 2) / (n + z^2) and n + z^2 trials. Use the Wilson interval instead
+    plus-four 3: your code returns the Agresti-Coull interval, clamped to [0, 1]: the
+      Wald interval with p = (k + z^2 / 2) / (n + z^2) and n + z^2 trials. Use the
+      Wilson interval instead
     one-more: your code uses p = (k + 1) / (n + 2), which adds one success and one
       failure. Use p = k / n instead
     quadratic-sign: your code uses `-2 k / n + z^2 / n` as the coefficient of p in the
