@@ -29,8 +29,8 @@ def _(H, f, lo, hi, x):
       multipliers for the upper bounds that hold an entry
     no-price: your code returns 0 for the held entries. Return the corresponding entry
       of the gradient for each held entry
-    largest-only: your code returns only the largest multiplier. Return a multiplier for
-      each held entry
+    largest-only: your code returns only the multiplier with the largest absolute value.
+      Return a multiplier for each held entry
     first-limit-only: your code returns a multiplier only for the first held entry.
       Return a multiplier for each held entry
     times-the-width: your code multiplies the gradient by the distance between the

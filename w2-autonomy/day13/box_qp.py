@@ -234,15 +234,15 @@ def held_for_good(H, f, lo, hi, x, own=True):
 @row.wrongs(hidden={"stops-too-early": "no held entry of the lab moves so little"})
 def _(H, f, lo, hi, x):
     """clip-the-optimum: your code clamps the unconstrained minimiser to the bounds.
-      Solve again for the other entries, because their optimal values change if one
+      Solve again for the other entries, because their optimal values can change if one
       entry is held at a bound
     no-limits: your code returns the unconstrained minimiser -H^-1 f. Return the
       minimiser within the bounds instead
     scaled-back: your code stops at the first bound on the way to the unconstrained
       minimiser. Hold the entry at this bound, and continue with the other entries
     solved-once-more: your code clamps the unconstrained minimiser and solves for the
-      free entries only once. Repeat this step, because the new solution may violate the
-      bound of another entry
+      free entries only once. This is not enough, because the new solution may violate
+      the bound of another entry, or a held entry may have to be released
     clipped-for-good: your code never releases an entry that it has clamped. Release a
       held entry if its component of the negative gradient points into the box
     held-for-good: your code never releases an entry that is held at a bound, or it
@@ -263,13 +263,13 @@ def _(H, f, lo, hi, x):
     frees-the-wrong-ones: your code holds the wrong entries. Hold an entry at a bound
       only if its component of the negative gradient points out of the box
     held-left-out: when your code solves for the free entries, the right-hand side omits
-      the contribution of the held entries. Use the gradient H x + f at the current x in
-      the right-hand side, because it includes this contribution
+      the contribution of the held entries. Include it, because the gradient of the free
+      entries also depends on the held entries
     held-left-out 2: when your code solves for the free entries, the right-hand side
-      omits the contribution of the held entries. Use the gradient H x + f at the
-      current x in the right-hand side, because it includes this contribution
+      omits the contribution of the held entries. Include it, because the gradient of
+      the free entries also depends on the held entries
     one-step: your code takes only one clamped Newton step. Solve again for the other
-      entries, because their optimal values change if one entry is held at a bound
+      entries, because their optimal values can change if one entry is held at a bound
     full-hessian: your code uses the whole matrix H for each step. Omit the rows and
       columns of the held entries, because these entries do not move
     whole-steps: your code clamps the full Newton step of the free entries, so x can
@@ -277,24 +277,26 @@ def _(H, f, lo, hi, x):
       until the cost falls
     diagonal-hessian: your code divides the gradient by the diagonal of H. Solve with
       the submatrix of H for the free entries instead
-    gradient-steps: your code stops after 100 clamped gradient steps, which have not
-      converged. Repeat the steps until x no longer changes
+    gradient-steps: your code stops after 100 clamped gradient steps, which are too few
+      for some problems. Repeat the steps until x no longer changes
     gradient-steps 2: your code takes clamped gradient steps with a fixed step size of
       0.1. With this step size, the iteration does not converge for every H. Use the
-      reciprocal of the largest eigenvalue of H instead
+      reciprocal of the largest eigenvalue of H instead, and repeat the steps until x no
+      longer changes
     diagonal-hessian 2: your code divides the gradient by the diagonal of H. Solve with
       the submatrix of H for the free entries instead
-    gradient-steps 3: your code stops after 1,000 clamped gradient steps, which have not
-      converged if the condition number of H is large. Solve for the free entries
-      instead
-    one-gradient-step: your code takes only one clamped gradient step. Repeat the steps
-      until x no longer changes, or solve for the free entries
+    gradient-steps 3: your code stops after 1,000 clamped gradient steps, which are too
+      few if the condition number of H is large. Solve for the free entries instead
+    one-gradient-step: your code takes only one clamped gradient step. Divide the
+      gradient by the largest eigenvalue of H and repeat the steps until x no longer
+      changes, or solve for the free entries
     steps-too-long: your code takes clamped gradient steps with the step size 1, which
-      may not converge. Divide the gradient by the largest eigenvalue of H
-    few-sweeps: your code stops after 100 sweeps of coordinate descent, which have not
-      converged. Repeat the sweeps until x no longer changes
+      may not converge. Divide the gradient by the largest eigenvalue of H, and repeat
+      the steps until x no longer changes
+    few-sweeps: your code stops after 100 sweeps of coordinate descent, which are too
+      few for some problems. Repeat the sweeps until x no longer changes
     one-sweep: your code makes only one sweep of coordinate descent. Repeat the sweeps,
-      because a change of a later entry changes the optimal values of the earlier
+      because a change of a later entry can change the optimal values of the earlier
       entries
     lower-only: your code applies only the lower bounds. Apply the upper bounds too
     upper-only: your code applies only the upper bounds. Apply the lower bounds too

@@ -72,24 +72,23 @@ def by_pairs(J_space, masses, coms, g, *, first=max, swapped=False):
 
 @row.wrongs
 def _(J_space, masses, coms, g):
-    """sign: your code negates the stiffness. Check the order of the factors in g x
-      omega and the sign of the result, because, relative to the links, gravity rotates
-      in the direction opposite to the rotation of the joint
-    gravity-not-turned: your code uses g instead of g x omega, so each column is the
-      gravity torque itself. Use g x omega, because the stiffness is the derivative of
-      this torque
+    """sign: your code negates the stiffness. Check the signs and the order of the
+      factors in each cross product, because, relative to the links, gravity rotates in
+      the direction opposite to the rotation of the joint
+    gravity-not-turned: your code uses g instead of g x omega. Use g x omega, because
+      the stiffness is the derivative of the gravity torque
     gravity-not-turned 2: your code uses g instead of g x omega, so each column is the
-      gravity torque itself. Use g x omega, because the stiffness is the derivative of
-      this torque
+      gravity torque itself. Use g x omega on and below the diagonal, and copy these
+      entries to the upper triangle
     g-times-omega: your code multiplies g and omega entry by entry. Use the cross
       product g x omega instead
-    link-i-only: your code includes only the weight of link i in row i. Include the
-      weights of all links distal to link i too, because joint i also carries these
-      links
-    only-links-after: your code omits the weight of link i in row i. Include this
-      weight, because joint i also moves link i
-    all-links: your code includes the weights of all links in row i. Start with link i,
-      because joint i does not carry the links before link i
+    link-i-only: in each entry, your code includes only the weight of the link of the
+      later joint. Include the weights of all links distal to it too, because both
+      joints carry these links
+    only-links-after: in each entry, your code omits the weight of the link of the later
+      joint. Include this weight, because both joints move this link
+    all-links: in each entry, your code includes the weights of all links. Start with
+      the link of the later joint, because this joint does not carry the links before it
     lever-sign: your code uses v - omega x c as the velocity of a centre of mass c. Use
       v + omega x c instead
     halves-swapped: your code swaps omega and v. The upper three rows of `J_space`
@@ -106,7 +105,7 @@ def _(J_space, masses, coms, g):
       If your code adds a triangular matrix and its transpose, halve only the diagonal
       of the sum
     diagonal-zero: your code leaves the diagonal at 0. Compute the diagonal entries too,
-      because the rotation of each joint also changes the torque at that joint
+      because the rotation of each joint can also change the torque at that joint
     not-symmetrised: your code also uses the formula above the diagonal. Copy the lower
       triangle to the upper one instead, because the formula holds only on and below the
       diagonal
@@ -121,7 +120,7 @@ def _(J_space, masses, coms, g):
     diagonal-doubled: your diagonal entries are twice the correct values. If your code
       adds two triangles, include the diagonal in only one of them
     diagonal-only: your code leaves all off-diagonal entries at 0. Compute them too,
-      because the rotation of one joint also changes the torque at other joints
+      because the rotation of one joint can also change the torque at other joints
     only-z: your code uses only the z component of g. Use the whole vector, because
       gravity may have any direction
     minus-9.81: your code uses (0, 0, -9.81) instead of the argument g. Use g, because
@@ -142,8 +141,8 @@ def _(J_space, masses, coms, g):
       of joint j in column j
     z-axis: your code uses the z axis as the axis of every joint. Use the axis of joint
       j in column j
-    turned-twice: your code rotates gravity about both omega_i and omega_j. Rotate
-      gravity only about omega_j
+    turned-twice: your code rotates gravity about omega_j twice. Rotate gravity about
+      omega_j only once
     v-for-omega: your code uses v_j as the rotation axis of joint j. Use omega_j
       instead, which is in the upper three rows of column j of `J_space`
     torque-added: your code uses g + g x omega_j, so it adds the gravity torque itself.

@@ -92,9 +92,10 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       same `Quu` as for the gains
     mu-not-in-the-drop: your code uses `Quu` without `mu` for `drop`. Use the same `Quu`
       as for the gains
-    mu-on-Vxx: your code adds `mu` to `Vxx`. Add `mu` to the diagonal of `Quu` instead
-    mu-on-Vxx 2: your code adds `mu` to `Vxx` in the formula for `Quu`. Add `mu` to the
-      diagonal of `Quu` itself
+    mu-on-Vxx: your code adds `mu` to the diagonal of `Vxx` in the formulas for `Quu`
+      and `Qux`. Add `mu` to the diagonal of `Quu` instead
+    mu-on-Vxx 2: your code adds `mu` to the diagonal of `Vxx` in the formula for `Quu`.
+      Add `mu` to the diagonal of `Quu` itself
     Vx-not-passed-on: your code uses `Vx` of the final cost in every step. Update `Vx`
       in each step
     Vxx-not-passed-on: your code uses `Vxx` of the final cost in every step. Update
@@ -119,10 +120,10 @@ def _(fx, fu, lx, lu, lxx, luu, lux, Vx, Vxx, mu):
       Return the two parts separately
     drop-quadratic-sign: your code negates the second entry of `drop`. Use the sum of `k
       @ Quu @ k / 2`, which is positive if `Quu` is positive definite
-    gain-signs: your code omits the minus sign in k and K. Include it in both, because
-      `du = k + K dx` should reduce the cost
-    K-sign: your code omits the minus sign in K. Include it, because iLQR uses `du = k +
-      K dx`, whereas the LQR uses `u = -K x`
+    gain-signs: your code returns k and K without their minus sign. Return both with
+      this sign, because `du = k + K dx` should reduce the cost
+    K-sign: your code returns K without its minus sign. Return K with this sign, because
+      iLQR uses `du = k + K dx`, whereas the LQR uses `u = -K x`
     gain-signs 2: your code omits the minus sign in k and K. Include it in both, because
       `du = k + K dx` should reduce the cost
     K-sign 2: your code omits the minus sign in K. Include it, because iLQR uses `du = k

@@ -102,8 +102,9 @@ def _(M, stiffness, damping, h):
     slope-implicit: your code applies the gravity stiffness to the new position. Invert
       only M + h D, because MuJoCo computes the gravity torque at the old position
     damping-not-divided: your code does not divide the damping by the mass, and it
-      applies the damping to the old velocity. Use (M + h D)^-1 M v instead, which
-      applies the damping to the new velocity => both
+      applies the damping to the old velocity. Use (M + h D)^-1 M for the old velocity
+      and (M + h D)^-1 in the other terms, so that the damping acts on the new velocity
+      => both
     B-not-divided: your code omits the factor (M + h D)^-1 in B. Multiply by this
       factor, because the input is a torque and not an acceleration
     B-halved-below: your code multiplies the lower half of B by 1/2. Omit this factor,

@@ -65,11 +65,11 @@ def solved(J, e, weights, damp, lo, hi, right=None, box=box_qp):
 
 @row.wrongs(hidden={"stands-still-allowed": "no joint of the lab is beyond its range"})
 def _(J, e, weights, damping, dq_lo, dq_hi):
-    """clip-after: your code clamps Day 3's damped step to the bounds. Solve the
+    """clip-after: your code clamps the unconstrained minimiser to the bounds. Solve the
       quadratic program with bounds instead, so that the other joints compensate for a
       joint at its bound
-    scaled-back: your code scales down the whole step until every joint is within its
-      bounds. Solve the quadratic program with bounds instead, so that the other joints
+    scaled-back: your code scales the whole step by one factor to satisfy the bounds.
+      Solve the quadratic program with bounds instead, so that the other joints
       compensate for a joint at its bound
     not-limited: your code omits the bounds `dq_lo` and `dq_hi`. Solve the quadratic
       program with these bounds
@@ -81,9 +81,9 @@ def _(J, e, weights, damping, dq_lo, dq_hi):
     limits-swapped: your code swaps the lower and the upper bounds. Pass `dq_lo` first
       and `dq_hi` second
     limits-1: your code uses -1 and 1 as the bounds. Use `dq_lo` and `dq_hi` instead
-    clipped-twice: your code clamps Day 3's damped step and then a second step for the
-      remaining error. Solve the quadratic program instead, because the second step also
-      relies on joints that are already at a bound
+    clipped-twice: your code clamps the unconstrained minimiser and then a second step
+      for the remaining error. Solve the quadratic program instead, because the second
+      step also relies on joints that are already at a bound
     mean-weight-in-g: your code uses the mean of the weights in f = -J^T W e. Multiply
       each entry of e by its own weight instead
     clip-after 2: your code clamps Day 3's damped step (computed without the weights) to
