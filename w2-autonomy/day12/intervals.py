@@ -254,8 +254,12 @@ def _of_z(trials: Sequence[Asked]) -> Finding | None:
             if 0 < k < n:
                 wald.append(abs(x - p) / np.sqrt(p * (1 - p) / n))
     kinds = (
-        ("Your code uses Wilson's formula", wilson),
-        ("Your code uses Wald's formula p +- z sqrt(p (1 - p) / n)", wald),
+        ("Your intervals follow Wilson's formula", wilson),
+        (
+            "For 0 < k < n, your intervals follow Wald's formula "
+            "p +- z sqrt(p (1 - p) / n)",
+            wald,
+        ),
     )
     for how, some in kinds:
         zs = np.array(some)[np.isfinite(some)]
@@ -265,7 +269,8 @@ def _of_z(trials: Sequence[Asked]) -> Finding | None:
     pairs = [z for z in (_both_z(one) for one in trials) if z]
     if len(pairs) > 5 and all(abs(low - high) < 1e-6 for low, high in pairs):
         least, most = min(pairs)[0], max(pairs)[0]
-        says = f"Your z ranges from {least:.4g} to {most:.4g} in Wilson's formula"
+        says = "Your intervals follow Wilson's formula with different values of z, "
+        says += f"from {least:.4g} to {most:.4g}"
         if most - least > FAR:
             return Finding("z-changes", f"{says}. Use 1.96 for all n.")
     return None

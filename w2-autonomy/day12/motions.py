@@ -315,7 +315,7 @@ OPTIONS = [
         ("end-to-start", "your code returns the motion from the end to the start. "
                          "Reverse the motion",
          lambda x: x[::-1]),
-        ("stopped-at-the-end", "your motion stops abruptly at the last point. Start "
+        ("stopped-at-the-end", "your motion can stop abruptly at the last point. Start "
                                "the backward pass with 0 at this point",
          lambda x: np.append(x[:-1], 0.0)),
         ("mirrored", "your code takes the minimum of the motion and its mirror image. "

@@ -117,10 +117,10 @@ def _(tree, q):
     one-coordinate 2: your code compares only the last coordinate. Use the distance in
       all coordinates
     signed-sum: your code adds the differences with their signs, so positive and
-      negative differences cancel. Add the squares of the differences instead
+      negative differences can cancel. Add the squares of the differences instead
     signed-sum 2: your code compares the nodes by the square or the absolute value of
-      the sum of the differences, so positive and negative differences cancel. Square
-      each difference before you add
+      the sum of the differences, so positive and negative differences can cancel.
+      Square each difference before you add
     last-of-equals: your code returns the last of several equally near nodes. Return the
       first of them, as `np.argmin` does
     largest-coordinate: your code compares the nodes by their largest absolute
@@ -150,7 +150,7 @@ def _(tree, q):
       in all coordinates
     first-left-out: your code does not compare the first coordinate. Use the distance in
       all coordinates
-    cubed: your code cubes the differences, so positive and negative terms cancel.
+    cubed: your code cubes the differences, so positive and negative terms can cancel.
       Square the differences instead
     length-for-place: your code compares the norms of the nodes with the norm of q.
       Compare the distances instead, because two points with the same norm can be far

@@ -238,19 +238,19 @@ def _(a, b, c, limits, sd):
       joint's own limit instead
     smallest-limit: your code uses the smallest torque limit for every joint. Use each
       joint's own limit instead
-    last-joint-greatest: your code returns the last joint's upper bound as the upper
-      bound. Take the minimum over all joints instead
-    last-joint-least: your code returns the last joint's lower bound as the lower bound.
-      Take the maximum over all joints instead
+    last-joint-greatest: your code returns the upper bound of the last joint with a
+      nonzero `a` as the upper bound. Take the minimum over all joints instead
+    last-joint-least: your code returns the lower bound of the last joint with a nonzero
+      `a` as the lower bound. Take the maximum over all joints instead
     mean-of-joints: your code averages the bounds of the joints. Take the maximum of the
       lower bounds and the minimum of the upper bounds instead
     sum-of-joints: your code adds the bounds of the joints. Take the maximum of the
       lower bounds and the minimum of the upper bounds instead
     from-zero: your lower bound is never below 0, and your upper bound is never above 0.
       Use only the bounds of the joints. In a loop, start with -inf and inf
-    last-joint-only 2: your code returns the bounds of the last joint. Return the
-      largest lower bound and the smallest upper bound of all joints. In a loop, keep
-      the bounds of the earlier joints
+    last-joint-only 2: your code returns the bounds of the last joint with a nonzero
+      `a`. Return the largest lower bound and the smallest upper bound of all joints. In
+      a loop, keep the bounds of the earlier joints
     never-narrowed: your bounds are -inf and inf, unless a joint with `a` = 0 exceeds
       its limit. Return the largest lower bound and the smallest upper bound of the
       joints

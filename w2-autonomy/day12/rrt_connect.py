@@ -26,8 +26,8 @@ row = Row(
             "may reach the sample and then add free edges of length 0 without ever "
             "reaching the *new node*. Grow it towards the new node, compare its last "
             "node with the new node, and leave the loop if an edge is not free. When "
-            "you follow the parents to the root, stop at the root: no node may be its "
-            "own parent.",
+            "you follow the parents to the root, stop at the root: no other node may "
+            "be its own parent.",
         ),
     ),
 )

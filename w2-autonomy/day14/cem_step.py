@@ -58,13 +58,14 @@ def of_best(samples, best):
 
 @row.wrongs(hidden={"nan-is-zero": "no NaN of the lab has a score below 0 beside it"})
 def _(mean, std, noise, scores, elite):
-    """nan-first: your elite contains a sample whose score is NaN. Sort `-scores` with
-      `np.argsort`, which puts NaN last
-    nan-first 2: your elite contains a sample whose score is NaN. Sort `-scores` with
-      `np.argsort`, which puts NaN last
-    nan-first 3: your elite contains a sample whose score is NaN, and your order of
-      equal scores is reversed. Use `np.argsort(-scores, kind='stable')`, which puts NaN
-      last and keeps the order of equal scores
+    """nan-first: your code prefers samples whose score is NaN. NaN should be worse than
+      all other scores
+    nan-first 2: your code reverses the ascending order of the scores, so NaN comes
+      first. Use `np.argsort(-scores, kind='stable')`, which puts NaN last and keeps the
+      order of equal scores
+    nan-first 3: your code prefers samples whose score is NaN, and it reverses the order
+      of equal scores. Use `np.argsort(-scores, kind='stable')`, which puts NaN last and
+      keeps the order of equal scores
     ties-last-first: among samples with equal scores, your code prefers the last ones.
       Prefer the first ones instead
     std-kept: your code returns `std` unchanged. Return the standard deviation of the
@@ -79,7 +80,8 @@ def _(mean, std, noise, scores, elite):
       second-best one. Include the best sample
     nan-is-zero: your code treats NaN as a score of 0. Treat NaN as worse than all other
       scores
-    elite-one-less: your elite contains one sample too few. Use the best `elite` samples
+    elite-one-less: your code uses one elite sample too few. Use the best `elite`
+      samples
     weighted: your code weights the elite samples by their rank. Give all elite samples
       the same weight
     weighted 2: your code weights the elite samples by their scores. Give all elite

@@ -122,8 +122,8 @@ def _(W, weights):
     determinant: your code tests the rank with det(W W^T) or with another value that
       depends on the units. Compare the singular values with 1e-9 times the largest one
     nothing-may-be-left: your tolerance for W w is 0 or too small. Use 1e-9 times the
-      sum of |W_ij w_j| in each row, because rounding leaves about 1e-16 even if the
-      forces balance
+      sum of |W_ij w_j| in each row, because rounding can leave about 1e-16 of this sum
+      even if the wrenches balance
     rank-by-rounding: your tolerance for the rank is too small, as NumPy's default
       tolerance is. Use 1e-9 times the largest singular value
     weights-not-used: your code tests the unweighted sum of the columns of W. Test W w
@@ -133,7 +133,7 @@ def _(W, weights):
     moments-only: your code tests only the moments in W w. Test the forces too, because
       both must balance
     sum-of-all: your code tests only the sum of all components of W w, so positive and
-      negative components cancel. Test each component separately
+      negative components can cancel. Test each component separately
     always-true: your code always returns True. Test the rank, the weights and W w
     always-false: your code always returns False. Test the rank, the weights and W w
     """

@@ -57,10 +57,10 @@ def _(normal, mu, k):
       absolute component. Use the axis with the smallest absolute component instead
     signed-least: your code uses the coordinate axis along which n has the smallest
       signed component. Compare the absolute values of the components instead
-    axis-x-n: your edges are rotated by pi about the normal. Use n x axis for `a` and
-      not axis x n
-    axis-itself: your edges are rotated by -pi/2 about the normal. Use n x axis for `a`,
-      which is perpendicular to the projection of the axis onto the tangent plane
+    axis-x-n: your edges are rotated by pi about the normal. The first edge should be n
+      + mu a, where `a` is the unit vector along n x axis
+    axis-itself: your edges are rotated by -pi/2 about the normal. The first edge should
+      be n + mu a, where `a` is the unit vector along n x axis
     last-is-first: your code ends with t = 2 pi, so the last edge is equal to the first.
       End with `t = 2 pi (k - 1) / k` instead
     degrees: your code uses t in degrees. Use t = 2 pi i / k instead, because `np.cos`

@@ -43,8 +43,8 @@ def _(force, normal, mu):
       along the contact's own normal instead
     normal-is-z: your code uses the normal (0, 0, 1) for every contact. Use each
       contact's own normal instead
-    normal-is-z 2: your code uses the normal (0, 0, 1) for every contact. Use each
-      contact's own normal instead
+    normal-is-z 2: your code uses the z component of the force as f_n. Use the component
+      along the contact's own normal instead
     pull-counts: your code uses the absolute value of f_n for a contact that pulls. Keep
       the sign of f_n, because a finger cannot pull
     pull-limited: your code clamps a negative f_n to 0. Keep the sign of f_n, because a
@@ -60,8 +60,8 @@ def _(force, normal, mu):
       positive f_n, because the normal points out of the finger into the cube
     margin-of-the-first: your code returns the margin of the first contact for every
       contact. Return each contact's own margin
-    over-the-cone: your code returns the distance to the surface of the cone. Omit the
-      division by `sqrt(1 + mu^2)`
+    over-the-cone: your code divides the margin by `sqrt(1 + mu^2)`, as for the distance
+      to the surface of the cone. Return mu f_n - |f_t| itself
     """
     press = np.sum(force * normal, axis=1)
     along = force - press[:, None] * normal

@@ -27,14 +27,14 @@ def stacked(blocks):
 def _(points, centre):
     """centre-forgotten: your code computes the moments about the origin of the world
       frame. Compute them about the argument `centre`
-    moment-sign: your code negates the moments. Use `p - c` as the lever arm, and do not
-      transpose its skew-symmetric matrix
+    moment-sign: your code negates the moments. The moment of a force f at the point p
+      should be (p - `centre`) x f
     halves-swapped: your code swaps the force rows and the moment rows. Put the moment
       rows above the force rows
     arm-on-the-diagonal: your code puts `p - c` on the diagonal. Use the skew-symmetric
       matrix of `p - c` instead, because the moment is a cross product
-    added-up: your code adds the blocks of all points. Give each point its own three
-      columns instead
+    added-up: your code returns a single block with the sum of all lever arms. Give each
+      point its own three columns instead
     components-together: your code groups the columns by component, with all x
       components first. Put the three columns of each contact next to each other
     moments-only: your code leaves the lower three rows at 0. Put the forces into these
@@ -43,8 +43,8 @@ def _(points, centre):
       rows
     about-the-mean: your code computes the moments about the mean of the points. Compute
       them about the argument `centre`
-    forces-negative: your code negates the forces. Use the forces that act on the cube
-      instead of the forces that act on the fingers
+    forces-negative: your code negates the forces. The force rows of each contact should
+      be the identity matrix
     forces-over-n: your code divides the forces by the number of points. Omit this
       division
     """

@@ -85,8 +85,8 @@ def _(finger_position, force, normal, mu, fraction, step):
     one-minus-the-share: your code closes the pads if the margin is below `(1 -
       fraction) * mu * f_n`, which means that |f_t| is above `fraction * mu * f_n`.
       Compare the margin with `fraction * mu * f_n` instead
-    high-for-low: your code returns a finger position of at least `HIGH[4]`, so the pads
-      open. Use `LOW[4]` as the limit instead
+    high-for-low: if a contact nearly slips, your code returns at least `HIGH[4]`, so
+      the pads open. Use `LOW[4]` as the limit instead
     smaller-for-larger: your code returns the smaller of the new position and `LOW[4]`.
       Return the larger of the two instead
     always: your code closes the pads in every call. Close the pads only if a contact

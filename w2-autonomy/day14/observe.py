@@ -59,9 +59,10 @@ def _(T_seen, noise):
     folded-by-pi: your code reduces the yaw modulo pi. Reduce it modulo pi/2, because a
       cube already looks the same after a rotation by pi/2
     folded-by-pi-over-4: your code reduces the yaw modulo pi/4. Reduce it modulo pi/2,
-      because a cube looks the same only after a rotation by pi/2
+      because pi/2 is the smallest rotation after which a cube looks the same
     folded-once: your code adds or subtracts pi/2 at most once. Use `%` or `np.mod`
-      instead, because the cube may be rotated by more than pi/2
+      instead, because a single rotation by pi/2 is not enough for a yaw outside [-3
+      pi/4, 3 pi/4)
     noise-after-the-fold: your code adds the noise after the reduction, so the yaw can
       leave [-pi/4, pi/4). Add the noise before the reduction
     fmod: your reduction rounds towards 0, as `np.fmod` does, so some results are below

@@ -51,10 +51,10 @@ def _(heights, target, cap):
       every height that is not finite
     thrown-is-zero: your code returns 0 for a height above the cap. Return -1, because
       the cube was thrown
-    success-only: your code returns only 0 or 1. Below the target, the reward should
-      rise linearly with the height
-    success-only 2: your code returns only 0 or 1. Below the target, the reward should
-      rise linearly with the height
+    success-only: your code returns 0 for heights between the floor and the target. In
+      this range, the reward should rise linearly with the height
+    success-only 2: your code returns 0 for heights between the floor and the target. In
+      this range, the reward should rise linearly with the height
     not-limited: your code returns a reward above 1 for a height above the target.
       Return 1 instead
     below-the-floor: your code returns a negative reward for a height below the floor.
@@ -67,9 +67,10 @@ def _(heights, target, cap):
       by the target instead
     halved: your code returns -1 for a cube on the floor. The reward should rise from 0
       on the floor to 1 at the target
-    one-minus: your code returns 1 minus the reward. Return the reward itself
-    nothing-lost: your code omits episodes whose height is NaN or above the cap. Return
-      a reward of -1 for each of these episodes
+    one-minus: for finite heights up to the cap, your code returns 1 minus the reward.
+      Return the reward itself
+    nothing-lost: your code omits episodes whose height is not finite or is above the
+      cap. Return a reward of -1 for each of these episodes
     """
     h = heights
     good = np.isfinite(h) & (h <= cap)

@@ -42,8 +42,8 @@ def _(success):
       95 % interval
     ninety-nine: your code uses z = 2.576, which gives a 99 % interval. Use z = 1.96 for
       a 95 % interval
-    n-less-one: your code divides by `n - 1` in the rate and in both endpoints of the
-      interval. Divide by n, the number of trials, instead
+    n-less-one: your code multiplies the rate and both endpoints of the interval by n /
+      (n - 1). Omit this factor
     per-cent: your code returns percentages. Return fractions instead
     """
     won = np.asarray(success, float)
