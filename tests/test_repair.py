@@ -284,3 +284,34 @@ def test_a_change_in_two_lines_names_neither(tmp_path):
     says = says_of(tmp_path, 5, "5.2", "pd_gains", POLES).message
     assert "`return np.array([1 / tau**2, 2 * zeta * tau])`, makes all" in says
     assert "`tau = 1.0 / omega`" not in says
+
+
+SUBTRACTED = """
+def site_jacobian(J_space, p):
+    J = np.array(J_space, float)
+    for k in range(J.shape[1]):
+        w = J[:3, k]
+        J[3, k] -= w[1] * p[2] - w[2] * p[1]
+        J[4, k] -= w[2] * p[0] - w[0] * p[2]
+        J[5, k] -= w[0] * p[1] - w[1] * p[0]
+    return J
+"""
+
+
+def test_a_line_that_only_takes_a_value_is_not_told_for_its_sign(tmp_path):
+    """With -w all is right, but the wrong signs are in the lines below."""
+    verdict = says_of(tmp_path, 3, "3.2", "site_jacobian", SUBTRACTED)
+    assert "w = J" not in verdict.message
+    assert "reverses one sign" in verdict.message
+
+
+TOO_SMALL = """
+def pd_equilibrium_step(q_goal, g_at_q, kp):
+    return q_goal - np.asarray(g_at_q) / (1.0 + np.asarray(kp))
+"""
+
+
+def test_beside_its_line_nobody_is_asked_for_a_rounded_constant(tmp_path):
+    verdict = says_of(tmp_path, 5, "5.4", "pd_equilibrium_step", TOO_SMALL)
+    assert "One change in line" in verdict.message
+    assert "rounded" not in verdict.message

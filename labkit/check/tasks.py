@@ -19,6 +19,7 @@ from labkit.judge.cases import in_cases
 from labkit.judge.guard import attempt, noting, quiet
 from labkit.judge.judge import judge, unjudged
 from labkit.judge.mistake import ADD_UP, Verdict
+from labkit.judge.near_miss import WHY
 from labkit.judge.repair import Changes, changes_of, mends, repaired
 from labkit.judge.replies_read import no_answer, not_loaded, refusal
 from labkit.judge.right_when import right_when
@@ -217,7 +218,8 @@ class _Check:
                     says = self._where_right(asked, verdict, session)
         if line and ADD_UP in verdict.message:  # one change in place of two mistakes
             return replace(verdict, mistake="one-line", message=line)
-        return replace(verdict, message=f"{verdict.message} {line or says}".strip())
+        known = verdict.message.replace(WHY, "") if line else verdict.message
+        return replace(verdict, message=f"{known} {line or says}".strip())
 
     def _asked_and_changes(
         self, task: Task, verdict: Verdict

@@ -21,7 +21,7 @@ from labkit.judge.ask import Ask, Asked, right_answers
 from labkit.judge.cases import NONE, RIGHT, drawn, verdict
 from labkit.judge.mistake import Finding
 from labkit.judge.mutant import FAR, Body, Mutant, is_alone
-from labkit.judge.operators import Place
+from labkit.judge.operators import Place, called
 from labkit.judge.replies_read import read
 from labkit.judge.sentence import LONG
 from labkit.judge.statements import Block, Lines
@@ -41,6 +41,10 @@ AT, CALLED = "_robo47_at", "_robo47_changed_"
 TUNED = {"number", "name"}
 # What may stand anywhere in a sum or a product: such a line is not the wrong one.
 ANYWHERE = {"added", "scaled"}
+# What may be wrong wherever a value is used, and not where a line takes it.
+OF_A_VALUE = {"sign", "negated", "transpose", "inverse"}
+TAKES = {"array", "asarray", "broadcast_to", "copy", "float", "reshape",
+         "shape"}  # fmt: skip
 LINES = 2  # that are named; of more than these it says little
 # What is changed, by the kind of a change.
 PARTS = {
@@ -385,7 +389,13 @@ def _is_right(row: Ask, question: Question, reply: Reply) -> bool:
 
 def _told(mutants: Sequence[Mutant], source: str, calls: int) -> str:
     """Return where the changes are that make all answers right; "" if anywhere."""
-    mutants = [mutant for mutant in mutants if _is_in_one_line(mutant)]
+    copies = _copies(source)
+    mutants = [
+        one
+        for one in mutants
+        if _is_in_one_line(one)
+        and not (one.kind in OF_A_VALUE and one.spans[0][0] in copies)
+    ]
     near = [mutant for mutant in mutants if mutant.rank < FAR]
     found = near or mutants
     found = sorted(found, key=lambda mutant: mutant.rank)
@@ -403,6 +413,24 @@ def _told(mutants: Sequence[Mutant], source: str, calls: int) -> str:
 def _is_in_one_line(mutant: Mutant) -> bool:
     """Return whether all places of a change begin in the same line."""
     return len({span[0] for span in mutant.spans}) == 1
+
+
+def _copies(source: str) -> set[int]:
+    """Return the lines that only take a value, as `w = J[:3]` does.
+
+    What is computed with it later is as likely to have the wrong sign.
+    """
+    lines = (one for one in ast.walk(ast.parse(source)) if isinstance(one, ast.Assign))
+    return {
+        line.lineno for line in lines if not any(map(_computes, ast.walk(line.value)))
+    }
+
+
+def _computes(node: ast.AST) -> bool:
+    """Return whether an expression makes another value of what it takes."""
+    if isinstance(node, ast.Call):
+        return called(node) not in TAKES
+    return isinstance(node, ast.BinOp | ast.UnaryOp | ast.Compare)
 
 
 def _line(number: int, text: str) -> str:
