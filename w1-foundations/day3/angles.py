@@ -8,6 +8,7 @@ from robo47.checks import Array
 
 BY_PI, BY_0 = 0.02, 0.02  # radians: "near pi" and "near 0" begin here
 OFF = 1e-5
+AMPLIFIED = 1e-13  # rounding errors, which a division by a small sine makes larger
 NEXT_TO_NONE = 1e-8  # "close" begins here
 
 
@@ -50,11 +51,12 @@ def _near_pi(S: Array, T: Array, some: np.ndarray, says: str) -> Finding:
         )
     if found := _set_to_pi(S, T, some):
         return found
-    return Finding(
-        "wrong-near-pi",
-        f"{says} Near pi, R - R^T is nearly 0. Does your code divide R - R^T by the "
-        "sine of the angle? This division amplifies the rounding errors.",
-    )
+    below = np.maximum(np.pi - np.linalg.norm(T[some], axis=1), 1e-300)
+    why = "Look at the part of your function for angles near pi."
+    if np.all(difference(S[some], T[some]) < AMPLIFIED / below):
+        why = "Near pi, R - R^T is nearly 0. Does your code divide R - R^T by the "
+        why += "sine of the angle? This division amplifies the rounding errors."
+    return Finding("wrong-near-pi", f"{says} {why}")
 
 
 def _alike(a: Array, b: Array) -> bool:

@@ -62,6 +62,9 @@ def _(J, e, damping):
       `damping` times the largest one, as the pseudo-inverse with `damping` as `rcond`
       does. Damping should reduce the step along these directions instead of omitting
       them
+    damping-as-a-cut 2: your step omits the directions whose singular value is at most
+      `damping`. Damping should reduce the step along these directions instead of
+      omitting them
     singular-value-missing: for each singular value s, your code uses the factor 1 /
       (s^2 + damping^2). Multiply this factor by s, because J^T contributes a factor of
       s
@@ -81,6 +84,7 @@ def _(J, e, damping):
         "damping-fixed": with_added(0.05**2 * I6),
         "damping-added-to-the-values": Vt.T @ (along / (s + damping)),
         "damping-as-a-cut": pinv(J, damping) @ e,
+        "damping-as-a-cut 2": Vt.T @ np.where(s > damping, along / s, 0.0),
         "singular-value-missing": Vt.T @ (along / (s**2 + damping**2)),
         "singular-value-missing 2": Vt.T @ (along / (s**2 + damping**2) * (s > 1e-12)),
     }

@@ -46,12 +46,12 @@ def _(K, Lambda):
     another-design: your result is another critically damped design, in which each mode
       of Lambda and K is damped separately. Multiply sqrt(Lambda) and sqrt(K) in both
       orders, and return the sum of the two products
-    diagonal-only: your result is 2 sqrt(k m) for each axis, with m from the diagonal of
-      Lambda. Use the matrix square root of Lambda instead, because Lambda couples the
-      axes
+    diagonal-only: your code uses only the diagonal of Lambda, as in 2 sqrt(k m) for
+      each axis. Use the matrix square root of Lambda instead, because Lambda couples
+      the axes
     one-order-only: your result is twice the same product of sqrt(Lambda) and sqrt(K).
       Add the products in both orders, so that the result is symmetric
-    half-of-it: your result is only one of the two products of sqrt(Lambda) and sqrt(K).
+    half-of-it: your code uses only one of the two products of sqrt(Lambda) and sqrt(K).
       Add the product with the factors in the opposite order
     factor-two: your result has an extra factor of 2. For scalars k and m, the sum of
       the two products is already 2 sqrt(k m)

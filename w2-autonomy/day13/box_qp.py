@@ -210,10 +210,10 @@ def guessed(
     return x
 
 
-def held_for_good(H, f, lo, hi, x, own=True):
+def held_for_good(H, f, lo, hi, x, own=True, from_start=False):
     """Return x where an entry that met a bound is never released."""
     x = np.clip(x, lo, hi)
-    held = lo == hi
+    held = (x <= lo) | (x >= hi) if from_start else lo == hi
     for _ in range(len(x) + 1):
         free = ~held
         right = -(H @ x + f)[free] if own else -f[free]
@@ -248,6 +248,9 @@ def _(H, f, lo, hi, x):
     held-for-good: your code never releases an entry that is held at a bound, or it
       releases the wrong entry. Release a held entry if its component of the negative
       gradient points into the box
+    held-for-good 2: your code holds every entry that is at a bound at the start or
+      meets one, and never releases it. Release a held entry if its component of the
+      negative gradient points into the box
     steepest-let-go: your code releases the held entry with the largest absolute
       gradient. Release the entry that the clamped step of task 13.4 moves most
     all-let-go: your code releases all held entries in the same iteration, so they can
@@ -322,6 +325,7 @@ def _(H, f, lo, hi, x):
         "solved-once-more": partial(solved_once_more, *given),
         "clipped-for-good": partial(clipped_for_good, *given),
         "held-for-good": partial(held_for_good, *given),
+        "held-for-good 2": partial(held_for_good, *given, from_start=True),
         "steepest-let-go": partial(guessed, *given, lets_go="steepest"),
         "all-let-go": partial(guessed, *given, lets_go="all"),
         "stops-too-early": partial(guessed, *given, enough=1e-4),

@@ -48,8 +48,8 @@ def filtered(
 for slug, says, other in (
     ("rc-share",
      "your code uses dt / (dt + RC) as alpha, where RC is 1 / (2 pi cutoff). Use 1 - "
-     "exp(-dt / RC) instead, because your formula is accurate only if dt is much "
-     "smaller than RC",
+     "exp(-dt / RC) instead, because your formula is an approximation for a dt that is "
+     "much smaller than RC",
      {"alpha": lambda x: x / (1 + x)}),
     ("share-turned-round",
      "in your result, the weights alpha and 1 - alpha are swapped. The new sample "
