@@ -267,3 +267,16 @@ def test_what_code_in_another_form_does_is_a_supposition(
 ):
     """Of the result it is none, however that was computed."""
     assert told_of_a_file(1, task, name, student, body).startswith(says)
+
+
+BOTH_POLES_AT_ONE_PLACE = """
+def pd_gains(omega, zeta):
+    pole = zeta * omega
+    return np.array([pole * pole, pole + pole])
+"""
+
+
+def test_that_a_mistake_is_in_the_only_step_is_no_place(student):
+    says = told_of_a_file(5, "5.2", "pd_gains", student, BOTH_POLES_AT_ONE_PLACE)
+    assert "contains a mistake" not in says
+    assert "entry for kp" in says

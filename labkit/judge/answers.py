@@ -346,7 +346,8 @@ def of_result(says: str, called: str) -> str:
         return capitalised(its) if found[0][0].isupper() else its
 
     named = re.sub(r"\b(?:[Tt]he|[Yy]our) result( is)?\b", name, says)
-    return f"For {called}, {as_clause(says)}" if named == says else named
+    whole = named == says or says.startswith("Your function return")
+    return f"For {called}, {as_clause(named)}" if whole else named
 
 
 def say_error(off: str) -> str:

@@ -32,11 +32,13 @@ def by_results(m: Matcher) -> Finding | None:
     What is with the other results is said besides: a mistake of one may be about all.
     """
     wrong = _wrong_results(m)
-    if len(wrong) < 2 or m.whole:
+    # Of counts and truth values, equal ones prove little.
+    numbers = [j for j in wrong if not m.ask.kinds[j].whole]
+    if len(wrong) < 2 or not numbers:
         return None
     told: dict[int, Mistake] = {}
     for one in of_its_own_first(m):
-        left = [j for j in wrong if j not in told]
+        left = [j for j in numbers if j not in told]
         told |= dict.fromkeys(_given_by(m, one, left), one)
     if not told:
         return None

@@ -130,8 +130,13 @@ def shows(m: Any, mutant: Mutant) -> bool:
 
     A changed formula whose names a student has seen is told by its kind alone.
     """
-    if _in_own_words(m, mutant) or glosses(mutant):
+    if _in_own_words(m, mutant):
         return True
+    if glosses(mutant):
+        function = mutant.body.function
+        steps = function.body[bool(ast.get_docstring(function)) :]
+        # That a mistake is in the only step says nothing.
+        return len(steps) > 1 or not _is_of_a_form(mutant)
     return tells(mutant) and is_known(m, mutant)
 
 
@@ -237,14 +242,15 @@ def told(m: Any, mutant: Mutant) -> str:
     does = f"{what(mutant, given=given)}{_or_transposed(mutant)}"
     if not (steps := glosses(mutant)):
         return f"your code {does}"
-    if mutant.kind in OF_A_FORM or _swaps_arguments(mutant):
+    if _is_of_a_form(mutant):
         does = "contains a mistake"
     return f"your code {for_steps(steps)} {does.removesuffix(EVERYWHERE)}"
 
 
-def _swaps_arguments(mutant: Mutant) -> bool:
-    """Return whether a change swaps arguments of a function that is called."""
-    return mutant.kind == "order" and isinstance(mutant.edits[0][0].node, ast.Call)
+def _is_of_a_form(mutant: Mutant) -> bool:
+    """Return whether a change is one of a text, as of the arguments of a call."""
+    swaps = mutant.kind == "order" and isinstance(mutant.edits[0][0].node, ast.Call)
+    return swaps or mutant.kind in OF_A_FORM
 
 
 def for_steps(glosses: Sequence[str]) -> str:

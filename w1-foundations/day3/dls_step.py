@@ -58,6 +58,8 @@ def _(J, e, damping):
     singular-value-missing 2: for each singular value s above 0, your code uses the
       factor 1 / (s^2 + damping^2). Multiply this factor by s, because J^T contributes a
       factor of s
+    damping-added-to-the-values 2: for each singular value s, your code uses the factor
+      1 / (s + damping^2). Use the factor s / (s^2 + damping^2) instead
     damping-as-a-cut: your step omits the directions whose singular value is at most
       `damping` times the largest one, as the pseudo-inverse with `damping` as `rcond`
       does. Damping should reduce the step along these directions instead of omitting
@@ -83,6 +85,7 @@ def _(J, e, damping):
         "pseudo-inverse-scaled": pinv(J) @ e / (1 + damping**2),
         "damping-fixed": with_added(0.05**2 * I6),
         "damping-added-to-the-values": Vt.T @ (along / (s + damping)),
+        "damping-added-to-the-values 2": Vt.T @ (along / (s + damping**2)),
         "damping-as-a-cut": pinv(J, damping) @ e,
         "damping-as-a-cut 2": Vt.T @ np.where(s > damping, along / s, 0.0),
         "singular-value-missing": Vt.T @ (along / (s**2 + damping**2)),

@@ -68,8 +68,9 @@ def _(J, dq):
       motions that do not move the hand. Return the part of dq along these motions
     normalised: your code normalises the result. Return the projection itself, whose
       norm depends on dq
-    one-direction-only: your result contains only one of the directions that J maps to
-      0. Use all of these directions, because a singular J has more than one
+    one-direction-only: for a singular J of shape (6, 7), your result contains only one
+      of the directions that J maps to 0. Use all of these directions, because a
+      singular J has more than one
     first-direction-kept: your code does not remove the part of dq along the first right
       singular vector. Remove this part too, because this direction moves the hand most
     position-only: your code uses only the three rows of v in J, so the hand rotates.

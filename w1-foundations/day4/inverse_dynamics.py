@@ -104,6 +104,9 @@ def _(J, G, qd, qdd, g):
     velocity-of-the-link-before: your term -ad(V)^T G V of each wrench contains the
       velocity of the previous link. Use the velocity of the link itself, which includes
       the motion of its own joint
+    velocity-of-the-link-before 2: your term -ad(V)^T G V of each wrench contains the
+      momentum of the previous link's velocity. Use the velocity of the link itself in
+      both places, which includes the motion of its own joint
     summed-from-the-base: for each joint, your code sums the wrenches on the links from
       the base up to that joint's link. Sum the wrenches from that joint's link to the
       tip instead, because the joint carries these links
@@ -139,6 +142,9 @@ def _(J, G, qd, qdd, g):
         "velocity-product-forgotten": {"swing": lambda V, A, G, own: 0 * V},
         "velocity-of-the-link-before": {
             "swing": lambda V, A, G, own: -ad(V - own).T @ G @ (V - own)
+        },
+        "velocity-of-the-link-before 2": {
+            "swing": lambda V, A, G, own: -ad(V).T @ G @ (V - own)
         },
         "summed-from-the-base": {"felt": lambda F, i: F[: i + 1].sum(axis=0)},
         "every-link-for-all": {"felt": lambda F, i: F.sum(axis=0)},

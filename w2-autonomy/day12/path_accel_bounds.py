@@ -175,8 +175,8 @@ def _of_holding(rest, pull, c, limits, moves, free):
 
 @row.wrongs
 def _(a, b, c, limits, sd):
-    """not-sorted: your code swaps the lower and the upper bound of a joint with a
-      negative `a`. Sort the two quotients of each joint
+    """not-sorted: in your code, the lower and the upper bound of a joint with a
+      negative `a` are swapped. Sort the two quotients of each joint
     speed-forgotten: your code omits the term `b * sd**2`. Subtract it from both torque
       limits
     speed-sign: your code adds `b * sd**2` to the torque limits. Subtract `b * sd**2`

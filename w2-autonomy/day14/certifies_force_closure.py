@@ -100,6 +100,8 @@ def _(W, weights):
     balance-and-rank-5: your code accepts rank 5. Require rank 6, because a wrench has
       six components
     zero-weights-do: your code accepts a weight of 0. Require every weight to be above 0
+    zero-weights-do 2: your code accepts a weight of 0. Require every weight to be above
+      0
     sign-forgotten: your code accepts weights below 0. Require every weight to be above
       0, because a finger cannot pull
     some-weight-above-0: your code accepts the weights if at least one weight is above
@@ -151,6 +153,9 @@ def _(W, weights):
         "balance-only": bool(balanced and above),
         "balance-and-rank-5": bool(rank >= 5 and balanced and above),
         "zero-weights-do": bool(full and balanced and np.all(weights >= 0)),
+        "zero-weights-do 2": bool(
+            full and balanced and np.all(weights >= 0) and np.any(weights > 0)
+        ),
         "sign-forgotten": bool(full and balanced),
         "some-weight-above-0": bool(full and balanced and np.any(weights > 0)),
         "balance-forgotten": bool(full and above),

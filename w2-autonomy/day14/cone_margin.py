@@ -45,6 +45,8 @@ def _(force, normal, mu):
       contact's own normal instead
     normal-is-z 2: your code uses the z component of the force as f_n. Use the component
       along the contact's own normal instead
+    normal-is-z 4: your code uses the x and y components of the force as f_t. Subtract
+      the component along the contact's own normal instead
     pull-counts: your code uses the absolute value of f_n for a contact that pulls. Keep
       the sign of f_n, because a finger cannot pull
     pull-limited: your code clamps a negative f_n to 0. Keep the sign of f_n, because a
@@ -81,6 +83,7 @@ def _(force, normal, mu):
         - np.linalg.norm(force - force[:, 2:] * normal, axis=1),
         "normal-is-z": mu * force[:, 2] - np.linalg.norm(force[:, :2], axis=1),
         "normal-is-z 2": mu * force[:, 2] - f_t,
+        "normal-is-z 4": mu * press - np.linalg.norm(force[:, :2], axis=1),
         "pull-counts": mu * np.abs(press) - f_t,
         "pull-limited": mu * np.maximum(press, 0) - f_t,
         "ratio": lambda: mu - f_t / press,
