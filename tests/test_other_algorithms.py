@@ -280,3 +280,16 @@ def test_that_a_mistake_is_in_the_only_step_is_no_place(student):
     says = told_of_a_file(5, "5.2", "pd_gains", student, BOTH_POLES_AT_ONE_PLACE)
     assert "contains a mistake" not in says
     assert "entry for kp" in says
+
+
+AS_A_POLYNOMIAL = """
+def pd_gains(omega, zeta):
+    p = np.roots([1.0, 2.0 * zeta * omega, omega**2])
+    return np.real(np.poly(p))[1:]
+"""
+
+
+def test_a_result_in_reverse_order_is_told_and_no_line_that_would_mend_it(student):
+    says = told_of_a_file(5, "5.2", "pd_gains", student, AS_A_POLYNOMIAL)
+    assert says.startswith("Your code returns the correct result in reverse order.")
+    assert "np.roots" not in says

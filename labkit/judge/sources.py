@@ -249,9 +249,13 @@ def after(function: Code, change: Code, *args: Any) -> Any:
 
 
 def likely_mutants(m: Matcher) -> Finding | None:
-    """Return a near mutant that gives all answers, where it can be shown."""
+    """Return a near mutant that gives all answers, where it can be shown.
+
+    What is so of the answers themselves says more than a mutant without a place.
+    """
     found = [one for one in _that_hold(m, NEAR) if shows(m, one)]
-    return of_mutants(m, found) if found else None
+    named = of_mutants(m, found) if found else None
+    return of_answers(m) or named if named and named.by_output else named
 
 
 def in_own_line(m: Matcher) -> Finding | None:
