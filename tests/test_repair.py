@@ -28,8 +28,8 @@ def inverse_dynamics(J_space, G, qd, qdd, gravity):
     tau = np.zeros(n)
     for i in range(n - 1, -1, -1):
         G_i = G[i]
-        momentum = G_i @ V[MOVED]
-        force = force + G_i @ A[i + 1] - ad(V[i + 1]).T @ momentum
+        momentum = ad(V[MOVED]).T @ G_i @ V[i + 1]
+        force = force + G_i @ A[i + 1] - momentum
         tau[i] = J_space[:, i] @ force
     return tau
 """
@@ -57,7 +57,7 @@ def says_of(tmp_path, number, task, function, body):
 def test_a_function_in_another_style_is_told_its_line(tmp_path):
     wrong = RECURSION.replace("MOVED", "i")  # the link before
     verdict = says_of(tmp_path, 4, "4.6", "inverse_dynamics", wrong)
-    assert "`momentum = G_i @ V[i]`, makes all" in verdict.message
+    assert "`momentum = ad(V[i]).T @ G_i @ V[i + 1]`, makes all" in verdict.message
     assert verdict.message.endswith("Check the indices there.")
 
 
