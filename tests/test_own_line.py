@@ -168,3 +168,26 @@ def test_a_counter_of_ones_own_is_not_that_of_a_solution(student):
     says = told(4, "4.3", "mass_matrix", student, PROXIMAL)
     assert "wrong expression" not in says
     assert "a wrong index or range" in says
+
+
+NOT_MOVED_BACK = """
+def arm_regressor(J_space, T_links, qd, qdd, g):
+    n = len(qd)
+    Y = np.zeros((n, 10 * n))
+    V, A = np.zeros(6), np.concatenate([np.zeros(3), -g])
+    for i in range(n):
+        S = J_space[:, i]
+        V = V + S * qd[i]
+        A = A + S * qdd[i] + ad(V) @ (S * qd[i])
+        X = adjoint(se3.inverse(T_links[i]))
+        wrench = link_regressor(X @ V, X @ A)
+        for j in range(i + 1):
+            Y[j, 10 * i : 10 * i + 10] = J_space[:, j] @ wrench
+    return Y
+"""
+
+
+@pytest.mark.kit
+def test_a_factor_may_be_missing_where_a_value_is_used(student):
+    says = told(8, "8.3", "arm_regressor", student, NOT_MOVED_BACK)
+    assert "`wrench = link_regressor(X @ V, X @ A)`, or one that uses `wrench`." in says

@@ -37,7 +37,9 @@ from labkit.sandbox.sandbox import Sandbox, Session, deadline_of
 CHANGED_BACK = {
     f"slip-{kind}" for kind in ("name", "index", "sign", "negated", "order")
 }
-QUOTED = re.compile(r" The wrong line is line (\d+)(?:: `[^`]*`)?\.")
+QUOTED = re.compile(
+    r" The wrong line is line (\d+)(?:: `[^`]*`)?(?:, or one that uses `\w+`)?\."
+)
 FRESH_ONLY = ("looked-up", "some-inputs")  # found by inputs that a seed draws
 
 

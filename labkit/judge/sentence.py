@@ -110,7 +110,8 @@ def _sentences(m: Any, mutant: Mutant) -> str:
     """Return what a student's code does, and the line or the expression that does."""
     if line := own_line(m, mutant):
         text = f": `{line.text}`" if len(line.text) <= LONG else ""
-        where = f"The wrong line is line {line.number}{text}."
+        used = _or_where_used(mutant, line)
+        where = f"The wrong line is line {line.number}{text}{used}."
         return f"Your code {what(mutant, line)}. {where}"
     if texts := own_expressions(m, mutant):
         verb = "expression is" if len(texts) == 1 else "expressions are"
@@ -123,6 +124,19 @@ def _sentences(m: Any, mutant: Mutant) -> str:
     says = told(m, mutant).removeprefix("your code ")
     which = "whose code" if says.startswith("for ") else "that"
     return f"{AS_A_SOLUTION} {which} {says}."
+
+
+def _or_where_used(mutant: Mutant, line: Line) -> str:
+    """Return that a change of all that is assigned may belong where its name is used.
+
+    A factor that is missing in `f_n = ...` may be missing in `fraction * f_n`.
+    """
+    place, _ = mutant.edits[0]
+    whole = not isinstance(place, Block) and isinstance(place.parent, ast.Assign)
+    if not whole or mutant.kind not in OF_A_VALUE | {"left-out"}:
+        return ""
+    name = line.text.partition(" = ")[0]
+    return f", or one that uses `{name}`" if name.isidentifier() else ""
 
 
 def shows(m: Any, mutant: Mutant) -> bool:

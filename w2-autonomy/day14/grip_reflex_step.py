@@ -76,7 +76,12 @@ def _(rng):
         yield finger_position, *contacts(rng, n), float(rng.numbers(0.1, 0.5)), 0.003
 
 
-@row.wrongs(hidden={"at-the-line": "no margin of the lab is exactly at the limit"})
+@row.wrongs(
+    hidden={
+        "at-the-line": "no margin of the lab is exactly at the limit",
+        "share-of-f_t": "near the limit, |f_t| is nearly mu f_n",
+    }
+)
 def _(finger_position, force, normal, mu, fraction, step):
     """all-must-slip: your code closes the pads only if all contacts nearly slip. Close
       the pads if at least one contact nearly slips
@@ -97,6 +102,10 @@ def _(finger_position, force, normal, mu, fraction, step):
       the force. Compare the margin with `fraction * mu * f_n` instead
     share-of-the-force 2: your code uses the norm of the force as f_n in `fraction * mu
       * f_n`. Use the component of the force along the normal instead
+    share-of-f_n: your code compares the margin with `fraction * f_n`. Compare it with
+      `fraction * mu * f_n` instead, because mu f_n is the largest possible margin
+    share-of-f_t: your code compares the margin with `fraction * |f_t|`. Compare it with
+      `fraction * mu * f_n` instead
     stopped-at-0: your code clamps the finger position at 0. Clamp it at `LOW[4]`
       instead
     stopped-too-early: your code omits a step that would go beyond `LOW[4]`. End this
@@ -140,6 +149,8 @@ def _(finger_position, force, normal, mu, fraction, step):
         "share-of-the-force 2": closed(
             np.any(margin < fraction * mu * np.linalg.norm(force, axis=1))
         ),
+        "share-of-f_n": closed(np.any(margin < fraction * press)),
+        "share-of-f_t": closed(np.any(margin < fraction * (mu * press - margin))),
         "stopped-at-0": max(finger_position - step, 0.0)
         if slips.any()
         else finger_position,
