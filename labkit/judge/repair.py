@@ -43,8 +43,8 @@ TUNED = {"number", "name"}
 ANYWHERE = {"added", "scaled"}
 # What may be wrong wherever a value is used, and not where a line takes it.
 OF_A_VALUE = {"sign", "negated", "transpose", "inverse"}
-TAKES = {"array", "asarray", "broadcast_to", "copy", "float", "reshape",
-         "shape"}  # fmt: skip
+TAKES = {"array", "asarray", "astype", "broadcast_to", "copy", "diag", "float",
+         "reshape", "shape"}  # fmt: skip
 LINES = 2  # that are named; of more than these it says little
 # What is changed, by the kind of a change.
 PARTS = {
