@@ -191,3 +191,17 @@ def arm_regressor(J_space, T_links, qd, qdd, g):
 def test_a_factor_may_be_missing_where_a_value_is_used(student):
     says = told(8, "8.3", "arm_regressor", student, NOT_MOVED_BACK)
     assert "`wrench = link_regressor(X @ V, X @ A)`, or one that uses `wrench`." in says
+
+
+UPWARD_AND_UNDAMPED = """
+def hybrid_wrench(e, V_err, K, D, force):
+    w = K @ e + D @ V_err
+    w[5] = force
+    return w
+"""
+
+
+@pytest.mark.kit
+def test_a_difference_without_its_first_term_has_a_wrong_sign_as_well(student):
+    says = told(6, "6.9", "hybrid_wrench", student, UPWARD_AND_UNDAMPED)
+    assert says.startswith("Your code omits a term and reverses one sign. The wrong")

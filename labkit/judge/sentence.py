@@ -368,7 +368,10 @@ def _of_an_expression(
     names = line.names if line else NO_NAMES
     if mutant.kind == "left-out":
         if isinstance(node, ast.BinOp):
-            return OF_A_PART.get(type(node.op), "")
+            says = OF_A_PART.get(type(node.op), "")
+            # Without a, a - b is -b: of b alone the sign is wrong as well.
+            right = isinstance(node.op, ast.Sub) and ast.dump(node.right)
+            return says + " and reverses one sign" * (ast.dump(new) == right)
         taught = mutant.body.own and isinstance(node, ast.Call)
         if taught and _is_of_a_module(node.func):
             return f"omits `{ast.unparse(node.func)}`"
