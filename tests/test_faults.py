@@ -329,8 +329,9 @@ def sandboxes_of(pid):
     found = []
     for file in Path(f"/proc/{pid}/task").glob("*/children"):
         for one in file.read_text().split():
-            if b"inside" in Path(f"/proc/{one}/cmdline").read_bytes():
-                found += processes._family(int(one))
+            with contextlib.suppress(FileNotFoundError, ProcessLookupError):
+                if b"inside" in Path(f"/proc/{one}/cmdline").read_bytes():
+                    found += processes._family(int(one))
     return found
 
 

@@ -1,5 +1,5 @@
-# task 46.2: off
-# Swapped, and NaN where a is short: no one mistake explains all answers.
+# task 46.2: b-cross-a+other
+# Swapped, and NaN where a is short: one mistake explains nearly all answers.
 import numpy as np
 
 
