@@ -104,9 +104,9 @@ def _(J, G, qd, qdd, g):
     velocity-of-the-link-before: your term -ad(V)^T G V of each wrench contains the
       velocity of the previous link. Use the velocity of the link itself, which includes
       the motion of its own joint
-    velocity-of-the-link-before 2: your term -ad(V)^T G V of each wrench contains the
-      momentum of the previous link's velocity. Use the velocity of the link itself in
-      both places, which includes the motion of its own joint
+    velocity-of-the-link-before 2: in your term -ad(V)^T G V of each wrench, the V on
+      the right of G is the velocity of the previous link. Use the velocity of the link
+      itself in both places, because it includes the motion of its own joint
     summed-from-the-base: for each joint, your code sums the wrenches on the links from
       the base up to that joint's link. Sum the wrenches from that joint's link to the
       tip instead, because the joint carries these links
